@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "parley_geometry/polynomial.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace parley {
+
+QuinticPiece QuinticPiece::between(const FlatState& start, const FlatState& end, double duration) {
+  assert(duration > 0.0);
+  const double t1 = duration, t2 = t1 * t1, t3 = t2 * t1, t4 = t3 * t1, t5 = t4 * t1;
+  const Eigen::Vector2d dp = end.position - start.position - start.velocity * t1 - 0.5 * start.acceleration * t2;
+  const Eigen::Vector2d dv = end.velocity - start.velocity - start.acceleration * t1;
+  const Eigen::Vector2d da = end.acceleration - start.acceleration;
+  QuinticPiece piece;
+  piece.duration_ = duration;
+  piece.coefficients_.col(0) = start.position;
+  piece.coefficients_.col(1) = start.velocity;
+  piece.coefficients_.col(2) = 0.5 * start.acceleration;
+  piece.coefficients_.col(3) = 10.0 * dp / t3 - 4.0 * dv / t2 + 0.5 * da / t1;
+  piece.coefficients_.col(4) = -15.0 * dp / t4 + 7.0 * dv / t3 - da / t2;
+  piece.coefficients_.col(5) = 6.0 * dp / t5 - 3.0 * dv / t4 + 0.5 * da / t3;
+  return piece;
+}
+
+FlatState QuinticPiece::at(double t) const {
+  const auto& c = coefficients_;
+  FlatState state;
+  state.position =
+      c.col(0) + t * (c.col(1) + t * (c.col(2) + t * (c.col(3) + t * (c.col(4) + t * c.col(5)))));
+  state.velocity = c.col(1) + t * (2.0 * c.col(2) + t * (3.0 * c.col(3) + t * (4.0 * c.col(4) + t * 5.0 * c.col(5))));
+  state.acceleration = 2.0 * c.col(2) + t * (6.0 * c.col(3) + t * (12.0 * c.col(4) + t * 20.0 * c.col(5)));
+  return state;
+}
+
+Eigen::Vector2d QuinticPiece::jerk(double t) const {
+  return 6.0 * coefficients_.col(3) + t * (24.0 * coefficients_.col(4) + t * 60.0 * coefficients_.col(5));
+}
+
+double QuinticPiece::jerkCost() const {
+  const Eigen::Vector2d a = 6.0 * coefficients_.col(3), b = 24.0 * coefficients_.col(4), c = 60.0 * coefficients_.col(5);
+  const double t = duration_;
+  return t * (a.dot(a) + t * (a.dot(b) + t * ((b.dot(b) + 2.0 * a.dot(c)) / 3.0 + t * (0.5 * b.dot(c) + t * c.dot(c) / 5.0))));
+}
+
+double PolynomialTrajectory::duration() const {
+  double sum = 0.0;
+  for (const QuinticPiece& piece : pieces) sum += piece.duration();
+  return sum;
+}
+
+FlatState PolynomialTrajectory::at(double time) const {
+  assert(!pieces.empty());
+  double t = std::max(0.0, time - start_time);
+  for (const QuinticPiece& piece : pieces) {
+    if (t <= piece.duration()) return piece.at(t);
+    t -= piece.duration();
+  }
+  return pieces.back().at(pieces.back().duration());
+}
+
+SampledTrajectory PolynomialTrajectory::sampled(double time_step, double initial_yaw) const {
+  assert(time_step > 0.0);
+  constexpr double kStanding = 1e-3;  // [m/s] below this the direction of the velocity says nothing
+  std::vector<TrajectoryPoint> points;
+  double yaw = initial_yaw;
+  const double sign = reverse ? -1.0 : 1.0;
+  const int steps = static_cast<int>(std::ceil(duration() / time_step - 1e-9));
+  for (int i = 0; i <= steps; ++i) {
+    const double t = std::min(i * time_step, duration());
+    const FlatState state = at(start_time + t);
+    const double speed = state.velocity.norm();
+    double turn_rate = 0.0;
+    if (speed > kStanding) {
+      yaw = std::atan2(sign * state.velocity.y(), sign * state.velocity.x());
+      turn_rate = (state.velocity.x() * state.acceleration.y() - state.velocity.y() * state.acceleration.x()) / (speed * speed);
+    }
+    points.push_back({start_time + t, {state.position.x(), state.position.y(), yaw}, {sign * speed, turn_rate}});
+  }
+  return SampledTrajectory(std::move(points));
+}
+
+}  // namespace parley

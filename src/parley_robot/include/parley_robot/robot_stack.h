@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "parley_geometry/odometry_buffer.h"
+#include "parley_robot/committed_plan.h"
+#include "parley_robot/goal_tracker.h"
+#include "parley_robot/packet.h"
+#include "parley_robot/periodic.h"
+#include "parley_robot/robot_options.h"
+#include "parley_robot/stage_times.h"
+
+namespace parley {
+
+/// What a robot does at one instant.
+struct RobotOutput {
+  Twist2 twist;  // command for the wheels
+  DriveState state = DriveState::kStopped;
+  std::string reason;           // why it stands, for people; empty while driving
+  std::vector<Packet> packets;  // to broadcast
+  StageTimes times;
+  int replans = 0;         // [-] trajectories committed so far
+  int route_switches = 0;  // [-] homotopy class changes so far
+  int escapes = 0;         // [-] escape points taken so far
+};
+
+/// What was thrown away and why, since the start.
+struct RobotCounters {
+  int odometry_rejected = 0;  // [-] not finite or out of order
+  int odometry_jumps = 0;     // [-] each drops the map
+  int time_resets = 0;        // [-] the clock went back; each starts the robot anew
+  int scans_rejected = 0;     // [-] empty, malformed, without odometry
+};
+
+/// A whole robot: everything between its sensors and its wheels. It gets time, odometry with drift, lidar, packets and a
+/// goal in its own odom frame, and nothing else; it does not know of any world frame. Same inputs, same outputs.
+class RobotStack {
+ public:
+  /// Throws std::invalid_argument with all problems if the options are not usable.
+  explicit RobotStack(const RobotOptions& options);
+
+  /// False if the goal is not finite.
+  bool setGoal(const Eigen::Vector2d& goal_odom);
+  void cancelGoal();
+
+  void addOdometry(const Odometry& odometry);
+  /// The newest reading replaces one that has not been used yet.
+  void addScan(const RangeScan& scan);
+  void addCloud(const LidarCloud& cloud);
+
+  /// One turn of the loop at the robot's own time [s]; call it at the control rate, after the sensors.
+  RobotOutput step(double now);
+
+  const Topology& topology() const { return topology_; }
+  const CommittedPlan& plan() const { return plan_; }
+  const PlanResult& lastPlan() const { return last_plan_; }
+  const Route& route() const { return route_; }
+  const LidarResult& lidar() const { return lidar_result_; }
+  const RobotCounters& counters() const { return counters_; }
+
+ private:
+  void sense(StageTimes& times);
+  void updateTopology(double now, StageTimes& times);
+  void planMotion(double now, StageTimes& times);
+  ControlResult driveWheels(double now, StageTimes& times);
+  void forgetMap();
+  void startAnew();
+  Route straightRoute() const;
+
+  RobotOptions options_;
+  OdometryBuffer odometry_;
+  LidarStage lidar_;
+  Topology topology_;
+  Planner planner_;
+  Controller controller_;
+  GoalTracker goal_;
+  CommittedPlan plan_;
+  Periodic topology_timer_;
+  Periodic plan_timer_;
+
+  std::variant<std::monostate, RangeScan, LidarCloud> pending_scan_;
+  LidarResult lidar_result_;
+  std::optional<Pose2> T_odom_scan_;
+  Route route_;
+  PlanResult last_plan_;
+  RobotCounters counters_;
+  double last_step_ = -1e9;  // [s]
+};
+
+}  // namespace parley

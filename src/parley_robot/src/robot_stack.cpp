@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "parley_robot/robot_stack.h"
+
+#include <stdexcept>
+
+namespace parley {
+namespace {
+
+constexpr double kTimeReset = 1.0;  // [s] going back by more means that time started again
+
+RobotOptions usable(const RobotOptions& options) {
+  std::string all;
+  for (const std::string& problem : checkRobot(options)) all += problem + "\n";
+  if (!all.empty()) throw std::invalid_argument(all);
+  return options;
+}
+
+}  // namespace
+
+RobotStack::RobotStack(const RobotOptions& options)
+    : options_(usable(options)),
+      odometry_(2.0, 2000, options.wiring.jump_distance, options.wiring.jump_angle),
+      lidar_(options.lidar, options.footprint, options.mount),
+      topology_(options.topology, options.footprint),
+      planner_(options.planner, options.footprint, options.limits),
+      controller_(options.control, options.footprint, options.limits),
+      goal_(options.goal_tolerance, options.wiring.arrival_hysteresis),
+      topology_timer_(options.wiring.topology_rate),
+      plan_timer_(options.wiring.plan_rate) {}
+
+bool RobotStack::setGoal(const Eigen::Vector2d& goal_odom) {
+  if (!goal_.set(goal_odom)) return false;
+  route_ = {};
+  planner_.reset();
+  return true;
+}
+
+void RobotStack::cancelGoal() {
+  goal_.cancel();
+  route_ = {};
+}
+
+void RobotStack::addOdometry(const Odometry& odometry) {
+  switch (odometry_.add(odometry)) {
+    case OdometryVerdict::kAccepted:
+      break;
+    case OdometryVerdict::kNotFinite:
+    case OdometryVerdict::kOutOfOrder:
+      ++counters_.odometry_rejected;
+      break;
+    case OdometryVerdict::kTimeWentBack:
+      ++counters_.time_resets;
+      last_step_ = odometry.stamp;  // this reset is counted once
+      startAnew();
+      break;
+    case OdometryVerdict::kJumped:
+      // What was mapped before the jump no longer lies where odometry says.
+      ++counters_.odometry_jumps;
+      forgetMap();
+      break;
+  }
+}
+
+void RobotStack::addScan(const RangeScan& scan) { pending_scan_ = scan; }
+
+void RobotStack::addCloud(const LidarCloud& cloud) { pending_scan_ = cloud; }
+
+RobotOutput RobotStack::step(double now) {
+  if (now < last_step_ - kTimeReset) {
+    ++counters_.time_resets;
+    odometry_.clear();
+    startAnew();
+  }
+  last_step_ = now;
+
+  RobotOutput output;
+  sense(output.times);
+  updateTopology(now, output.times);
+  planMotion(now, output.times);
+  const ControlResult drive = driveWheels(now, output.times);
+
+  output.twist = drive.twist;
+  output.state = drive.state;
+  output.reason = drive.reason;
+  output.replans = plan_.count();
+  output.route_switches = route_.switches;
+  return output;
+}
+
+void RobotStack::sense(StageTimes& times) {
+  if (std::holds_alternative<std::monostate>(pending_scan_) || odometry_.empty()) return;
+  LidarResult result;
+  times.lidar = timed([&] {
+    if (const auto* scan = std::get_if<RangeScan>(&pending_scan_)) {
+      result = lidar_.process(*scan, odometry_, {});
+    } else {
+      result = lidar_.process(std::get<LidarCloud>(pending_scan_), odometry_, {});
+    }
+  });
+  pending_scan_ = std::monostate{};
+  const std::optional<Odometry> at_scan = odometry_.at(result.scan.stamp);
+  if (!result.status.is(LidarCode::kOk) || !at_scan) {
+    ++counters_.scans_rejected;
+    return;
+  }
+  lidar_result_ = std::move(result);
+  T_odom_scan_ = at_scan->pose;
+  times.map_fusion = timed([&] { topology_.integrate(lidar_result_.scan, *T_odom_scan_); });
+}
+
+void RobotStack::updateTopology(double now, StageTimes& times) {
+  if (odometry_.empty() || !T_odom_scan_ || !topology_timer_.due(now)) return;
+  if (options_.variant == Variant::kReactive) {
+    route_ = straightRoute();
+    return;
+  }
+  times.topology = timed([&] { topology_.update(); });
+  if (!goal_.goal()) return;
+  times.route = timed([&] { route_ = topology_.route(odometry_.latest().pose, *goal_.goal(), now); });
+}
+
+void RobotStack::planMotion(double now, StageTimes& times) {
+  if (odometry_.empty() || !T_odom_scan_ || !goal_.goal() || !plan_timer_.due(now)) return;
+  const double start_time = now + options_.wiring.plan_delay;
+  if (goal_.update(odometry_.latest())) {
+    last_plan_ = arrivedPlan();
+    plan_.offer(last_plan_, now, start_time);
+    return;
+  }
+  times.local_plan = timed([&] {
+    const LocalMap map =
+        topology_.localMap(odometry_.latest().pose.position(), options_.wiring.local_map_size, lidar_result_.scan.stamp);
+    const PlanRequest request{now,           start_time, odometry_.latest(), map,          lidar_result_.scan,
+                              *T_odom_scan_, lidar_result_.tracks, route_,   *goal_.goal(), goal_.tolerance(),
+                              plan_.trajectory()};
+    last_plan_ = planner_.plan(request);
+  });
+  plan_.offer(last_plan_, now, start_time);
+}
+
+ControlResult RobotStack::driveWheels(double now, StageTimes& times) {
+  plan_.advance(now);
+  ControlRequest request;
+  request.now = now;
+  request.odometry = odometry_.empty() ? nullptr : &odometry_.latest();
+  request.trajectory = &plan_.trajectory();
+  request.trajectory_stamp = plan_.stamp();
+  request.scan = T_odom_scan_ ? &lidar_result_.scan : nullptr;
+  request.T_odom_scan = T_odom_scan_.value_or(Pose2{});
+  request.intent = goal_.goal() ? plan_.state() : DriveState::kStopped;
+  request.intent_reason = goal_.goal() ? plan_.reason() : "no goal";
+  ControlResult result;
+  times.control = timed([&] { result = controller_.step(request); });
+  return result;
+}
+
+Route RobotStack::straightRoute() const {
+  Route route;
+  if (!goal_.goal()) return route;
+  route.verdict = RouteVerdict::kThroughUnknown;
+  route.points = {odometry_.latest().pose.position(), *goal_.goal()};
+  route.length = route.cost = (route.points.back() - route.points.front()).norm();
+  return route;
+}
+
+void RobotStack::forgetMap() {
+  lidar_.reset();
+  topology_.reset();
+  planner_.reset();
+  plan_.clear();
+  controller_.reset();
+  T_odom_scan_.reset();
+  route_ = {};
+}
+
+void RobotStack::startAnew() {
+  forgetMap();
+  pending_scan_ = std::monostate{};
+  topology_timer_ = Periodic(options_.wiring.topology_rate);
+  plan_timer_ = Periodic(options_.wiring.plan_rate);
+}
+
+}  // namespace parley
