@@ -2,6 +2,7 @@
 #include "parley_geometry/options.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <sstream>
 
 namespace parley {
@@ -110,9 +111,9 @@ OptionValues valuesOf(const std::vector<OptionInfo>& infos) {
   OptionValues values;
   for (const OptionInfo& info : infos) {
     if (info.type == "number") {
-      values[info.name] = std::stod(info.value);
+      values[info.name] = std::strtod(info.value.c_str(), nullptr);  // stod throws on subnormal numbers
     } else if (info.type == "integer") {
-      values[info.name] = std::stol(info.value);
+      values[info.name] = std::strtol(info.value.c_str(), nullptr, 10);
     } else if (info.type == "flag") {
       values[info.name] = info.value == "true";
     } else {

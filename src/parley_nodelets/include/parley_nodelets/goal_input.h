@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "parley_geometry/pose2.h"
+
+namespace parley {
+
+/// What somebody wants of the robot.
+struct GoalOrder {
+  std::optional<Eigen::Vector2d> goal_odom;  // [m] nothing: stand
+};
+
+/// Takes goals from the topic `move_base_simple/goal` and the action `move_base`, brings them into the odom frame by
+/// tf, and tells the action's client how they ended. The newest goal replaces the one before, whichever way either
+/// came.
+class GoalInput {
+ public:
+  GoalInput(const ros::NodeHandle& nh, const std::string& odom_frame);
+  ~GoalInput();
+
+  /// The newest order since the last call.
+  std::optional<GoalOrder> take();
+
+  /// Whether the goal came by the action and is not finished yet.
+  bool actionRuns() const;
+  void feedback(const Pose2& T_odom_base, double stamp);
+  void succeed(const std::string& text);
+  void abort(const std::string& text);
+
+  /// Goals that could not be brought into the odom frame or were not finite.
+  int refused() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace parley

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <parley_msgs/Goal.h>
+#include <parley_msgs/ObstacleScan.h>
+
+#include <optional>
+#include <string>
+
+#include "parley_nodelets/input_check.h"
+#include "parley_nodelets/latest.h"
+#include "parley_nodelets/node_config.h"
+#include "parley_nodelets/odometry_input.h"
+#include "parley_nodelets/worker.h"
+#include "parley_topology/topology.h"
+
+namespace parley {
+
+/// Topology stage in ROS: `obstacles`, `odom` and `goal` become `local_map`, `route`, `graph` and `topology_markers`.
+class TopologyNode {
+ public:
+  /// Throws std::invalid_argument with all problems of the parameters.
+  TopologyNode(ros::NodeHandle nh, const ros::NodeHandle& pnh, const std::string& name);
+  ~TopologyNode();
+
+ private:
+  void integrate();
+  void update();
+  void takeGoal();
+  void publishLocalMap(const Pose2& T_odom_base);
+  void publishRoute(const Pose2& T_odom_base, double now);
+  void publishPictures();
+  void forgetIfBroken(double now, const OdometrySnapshot& odometry);
+  void report(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+
+  StageConfig<TopologyOptions> config_;
+  Worker worker_;
+  diagnostic_updater::Updater diagnostics_;
+  InputCheck inputs_;
+
+  std::unique_ptr<Topology> topology_;
+  Continuity continuity_;
+  std::optional<Eigen::Vector2d> goal_;  // [m] odom frame
+  std::optional<double> newest_scan_;    // [s] stamp
+  TopologyResult last_result_;
+  Route route_;
+  int rejected_ = 0;  // [-] scans
+
+  ros::Publisher local_map_;
+  ros::Publisher route_publisher_;
+  ros::Publisher graph_;
+  ros::Publisher markers_;
+  Latest<parley_msgs::ObstacleScanConstPtr> obstacles_;
+  Latest<parley_msgs::GoalConstPtr> new_goal_;
+  OdometryInput odometry_;
+  ros::Subscriber obstacles_subscriber_;
+  ros::Subscriber goal_subscriber_;
+};
+
+}  // namespace parley

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "parley_nodelets/planner_node.h"
+
+#include <parley_msgs/Goal.h>
+#include <parley_msgs/Trajectory.h>
+
+#include "parley_nodelets/map_conversions.h"
+#include "parley_nodelets/report.h"
+
+namespace parley {
+namespace {
+
+PlannerConfig loadPlannerConfig(const ros::NodeHandle& pnh) {
+  ParameterLoader loader(pnh);
+  PlannerConfig config;
+  config.node = loadNodeConfig(loader);
+  loader.load("", config.stage);
+  loader.load("goal", config.goal);
+  loader.finish();
+  return config;
+}
+
+bool isStuck(PlanCode code) {
+  return code == PlanCode::kNoRoute || code == PlanCode::kNoPath || code == PlanCode::kBlocked;
+}
+
+}  // namespace
+
+PlannerNode::PlannerNode(ros::NodeHandle nh, const ros::NodeHandle& pnh, const std::string& name)
+    : config_(loadPlannerConfig(pnh)),
+      worker_(name, [] {}),
+      diagnostics_(nh, pnh, name),
+      inputs_(nh, name),
+      planner_(std::make_unique<Planner>(config_.stage, config_.node.footprint, config_.node.limits)),
+      goal_(std::make_unique<GoalTracker>(config_.goal.tolerance, config_.node.wiring.arrival_hysteresis)),
+      trajectory_(nh.advertise<parley_msgs::Trajectory>("trajectory", 1)),
+      path_(nh.advertise<nav_msgs::Path>("trajectory_path", 1, true)),
+      goal_publisher_(nh.advertise<parley_msgs::Goal>("goal", 1, true)),
+      odometry_(nh, config_.node) {
+  const auto feed = [this, &nh](const std::string& topic, auto& latest) {
+    using Pointer = decltype(latest.take());
+    using Message = std::remove_const_t<typename Pointer::element_type>;
+    subscribers_.push_back(nh.subscribe<Message>(topic, 1, [&latest](const Pointer& m) { latest.put(m); }));
+    inputs_.expect<Message>(subscribers_.back());
+  };
+  feed("obstacles", new_scan_);
+  feed("tracks", new_tracks_);
+  feed("local_map", new_map_);
+  feed("route", new_route_);
+  inputs_.expect<nav_msgs::Odometry>(odometry_.subscriber());
+  diagnostics_.setHardwareID(config_.node.frames.base);
+  diagnostics_.add("stage", [this](Report& status) { report(status); });
+  orders_ = std::make_unique<GoalInput>(nh, config_.node.frames.odom);
+  worker_.every(nh, 1.0 / config_.node.wiring.plan_rate, [this] { step(); });
+  worker_.every(nh, 1.0, [this] { diagnostics_.update(); });
+  worker_.start();
+}
+
+PlannerNode::~PlannerNode() { worker_.stop(); }
+
+void PlannerNode::step() {
+  const double now = ros::Time::now().toSec();
+  const OdometrySnapshot odometry = odometry_.read();
+  if (continuity_.broken(now, odometry.counters)) forget();
+  takeOrder(now);
+  takeInputs(odometry.buffer);
+  plan_.advance(now);
+  if (odometry.buffer.empty() || !scan_ || !map_ || !goal_->goal()) return;
+  const Odometry& present = odometry.buffer.latest();
+  last_plan_ = goal_->update(present) ? arrivedPlan() : plan(now, present);
+  const TimedPlan timed{last_plan_, now, now + config_.node.wiring.plan_delay};
+  plan_.offer(timed.result, timed.made_at, timed.start_time);
+  publish(timed);
+  answerAction(now, present, last_plan_);
+}
+
+void PlannerNode::takeOrder(double now) {
+  const std::optional<GoalOrder> order = orders_->take();
+  if (!order) return;
+  if (order->goal_odom) {
+    goal_->set(*order->goal_odom);
+    planner_->reset();
+  } else {
+    goal_->cancel();
+  }
+  route_ = {};
+  last_progress_ = now;
+  publishGoal(now);
+}
+
+void PlannerNode::takeInputs(const OdometryBuffer& odometry) {
+  if (const auto message = new_scan_.take()) {
+    std::optional<ObstacleScan> scan = fromMessage(*message);
+    const std::optional<Odometry> at_scan = scan ? odometry.at(scan->stamp) : std::nullopt;
+    if (at_scan && continuity_.isCurrent(scan->stamp) && message->header.frame_id == config_.node.frames.base) {
+      scan_ = std::move(scan);
+      T_odom_scan_ = at_scan->pose;
+    } else {
+      ++rejected_;
+    }
+  }
+  const auto inOdom = [this](const std_msgs::Header& header) {
+    return header.frame_id == config_.node.frames.odom && continuity_.isCurrent(header.stamp.toSec());
+  };
+  if (const auto message = new_tracks_.take()) {
+    const auto tracks = fromMessage(*message);
+    tracks&& inOdom(message->header) ? void(tracks_ = *tracks) : void(++rejected_);
+  }
+  if (const auto message = new_map_.take()) {
+    const auto map = fromMessage(*message);
+    map&& inOdom(message->header) ? void(map_ = map) : void(++rejected_);
+  }
+  if (const auto message = new_route_.take()) {
+    const auto route = fromMessage(*message);
+    if (!route || !inOdom(message->header)) {
+      ++rejected_;
+    } else if (goal_->goal() && (route->goal - *goal_->goal()).norm() < 1e-6) {
+      route_ = route->route;  // a route to the goal before this one is of no use, and no fault
+    }
+  }
+}
+
+PlanResult PlannerNode::plan(double now, const Odometry& odometry) {
+  if (now - map_->stamp > config_.goal.map_timeout) {
+    PlanResult result;
+    result.status = {PlanCode::kNoPath, "the local map is too old"};
+    return result;
+  }
+  const PlanRequest request{now,
+                            now + config_.node.wiring.plan_delay,
+                            odometry,
+                            *map_,
+                            *scan_,
+                            T_odom_scan_,
+                            tracks_,
+                            route_,
+                            *goal_->goal(),
+                            goal_->tolerance(),
+                            plan_.trajectory()};
+  return planner_->plan(request);
+}
+
+void PlannerNode::publish(const TimedPlan& plan) {
+  const std::string& odom = config_.node.frames.odom;
+  trajectory_.publish(boost::make_shared<parley_msgs::Trajectory>(toMessage(plan, odom)));
+  if (path_.getNumSubscribers() > 0 && !plan.result.keep_committed) {
+    path_.publish(boost::make_shared<nav_msgs::Path>(toPath(plan.result.trajectory, plan.made_at, odom)));
+  }
+}
+
+void PlannerNode::publishGoal(double now) {
+  auto message = boost::make_shared<parley_msgs::Goal>();
+  message->header.stamp = ros::Time(now);
+  message->header.frame_id = config_.node.frames.odom;
+  message->active = goal_->goal().has_value();
+  if (message->active) {
+    message->position.x = goal_->goal()->x();
+    message->position.y = goal_->goal()->y();
+  }
+  goal_publisher_.publish(message);
+}
+
+void PlannerNode::answerAction(double now, const Odometry& odometry, const PlanResult& result) {
+  if (!isStuck(result.status.code)) last_progress_ = now;
+  if (!orders_->actionRuns()) return;
+  orders_->feedback(odometry.pose, odometry.stamp);
+  if (result.status.is(PlanCode::kArrived)) {
+    orders_->succeed("arrived");
+  } else if (now - last_progress_ > config_.goal.patience) {
+    orders_->abort(std::string(toString(driveStateOf(result.status.code))) + ": " + result.status.text);
+    goal_->cancel();
+    route_ = {};
+    publishGoal(now);
+  }
+}
+
+void PlannerNode::forget() {
+  planner_->reset();
+  plan_.clear();
+  scan_.reset();
+  map_.reset();
+  tracks_.clear();
+  route_ = {};
+}
+
+void PlannerNode::report(Report& report) const {
+  report.summary(Report::OK, toString(driveStateOf(last_plan_.status.code)));
+  if (!goal_->goal()) report.summary(Report::OK, "no goal");
+  if (goal_->goal() && isStuck(last_plan_.status.code)) report.summary(Report::WARN, last_plan_.status.text);
+  if (!scan_) report.mergeSummary(Report::WARN, "no obstacle scan");
+  if (!map_) report.mergeSummary(Report::WARN, "no local map");
+  report.add("trajectories committed", plan_.count());
+  report.add("goals refused", orders_->refused());
+  report.add("messages rejected", rejected_);
+  report.add("exceptions", worker_.errors());
+  reportOdometry(report, odometry_.read(), config_.node.frames, ros::Time::now().toSec());
+}
+
+}  // namespace parley

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace parley {
+
+/// All knobs of the local planner.
+struct PlannerOptions {
+  // Path
+  double look_ahead = 4.5;          // [m]
+  double comfort_distance = 0.50;   // [m]
+  double clearance_weight = 3.0;    // [-]
+  double unknown_cost = 1.5;        // [-]
+  double keep_path_discount = 0.9;  // [-]
+  double push_distance = 0.45;      // [m]
+  double bending_weight = 60.0;     // [-]
+  double twisting_weight = 2000.0;  // [-]
+  int smoothing_iterations = 10;    // [-]
+
+  // Motion
+  double time_step = 0.05;         // [s]
+  double limit_share = 0.95;       // [-]
+  double margin_creeping = 0.03;   // [m]
+  double margin_per_speed = 0.04;  // [s]
+  double creep_speed = 0.2;        // [m/s]
+  double turn_on_spot = 1.2;       // [rad]
+  double replan_period = 0.1;      // [s]
+  double largest_deviation = 0.2;  // [m]
+
+  // Others
+  double prediction_time = 1.5;  // [s]
+  double track_margin = 0.1;     // [m]
+  bool sight_law = true;
+  double sight_reaction_time = 0.2;   // [s]
+  double sight_intruder_speed = 2.0;  // [m/s]
+  double sight_clearance = 0.5;       // [m]
+  double sight_least_speed = 0.4;     // [m/s]
+
+  // Getting unstuck
+  double stuck_time = 2.0;       // [s]
+  double margin_tight = 0.01;    // [m]
+  int narrow_iterations = 2000;  // [-]
+  int seed = 1;                  // [-]
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.number("look_ahead", look_ahead, "m", 1.0, 20.0, "how far along the route the local goal lies");
+    v.number("comfort_distance", comfort_distance, "m", 0.1, 2.0, "a path closer than this to obstacles costs more");
+    v.number("clearance_weight", clearance_weight, "-", 0.0, 50.0, "extra cost of a path that grazes an obstacle");
+    v.number("unknown_cost", unknown_cost, "-", 1.0, 20.0, "cost of a metre through unseen space");
+    v.number("keep_path_discount", keep_path_discount, "-", 0.5, 1.0, "cost factor along the previous path");
+    v.number("push_distance", push_distance, "m", 0.0, 2.0, "obstacles nearer than this push the smoothed path away");
+    v.number("bending_weight", bending_weight, "-", 0.1, 10000.0, "how stiff the path is against obstacles' push");
+    v.number("twisting_weight", twisting_weight, "-", 0.0, 1000000.0, "how much the path resists changes of curvature");
+    v.integer("smoothing_iterations", smoothing_iterations, "-", 0, 1000, "steps of the path smoothing");
+    v.number("time_step", time_step, "s", 0.01, 0.2, "between the states of a trajectory");
+    v.number("limit_share", limit_share, "-", 0.5, 1.0, "share of the motion limits that plans use; control has the rest");
+    v.number("margin_creeping", margin_creeping, "m", 0.0, 0.5, "distance kept from obstacles when almost standing");
+    v.number("margin_per_speed", margin_per_speed, "s", 0.0, 0.5, "distance kept in addition, per m/s");
+    v.number("creep_speed", creep_speed, "m/s", 0.02, 1.0, "speed where there is hardly any room");
+    v.number("turn_on_spot", turn_on_spot, "rad", 0.2, 3.2, "a path that starts further off the heading is turned to standing");
+    v.number("replan_period", replan_period, "s", 0.0, 2.0, "a valid trajectory is driven at least this long");
+    v.number("largest_deviation", largest_deviation, "m", 0.05, 2.0, "further off the trajectory, plans start from the odometry");
+    v.number("prediction_time", prediction_time, "s", 0.0, 5.0, "how long tracked things are taken to keep their velocity");
+    v.number("track_margin", track_margin, "m", 0.0, 1.0, "distance kept from the predicted place of tracked things");
+    v.flag("sight_law", sight_law, "drive so that a hidden robot under the same law and this one can both stop");
+    v.number("sight_reaction_time", sight_reaction_time, "s", 0.0, 2.0, "from first sight to braking, either robot");
+    v.number("sight_intruder_speed", sight_intruder_speed, "m/s", 0.0, 10.0, "speed of robots that nobody has seen");
+    v.number("sight_clearance", sight_clearance, "m", 0.0, 2.0, "distance from walls that robots nobody has seen keep");
+    v.number("sight_least_speed", sight_least_speed, "m/s", 0.05, 10.0, "sight alone never makes the robot slower than this");
+    v.number("stuck_time", stuck_time, "s", 0.5, 60.0, "without progress for this long, the next harder measure is tried");
+    v.number("margin_tight", margin_tight, "m", 0.0, 0.5, "distance kept when creeping after getting stuck");
+    v.integer("narrow_iterations", narrow_iterations, "-", 0, 1000000, "bound of the search with headings");
+    v.integer("seed", seed, "-", 0, 1000000000, "of the random sampling in the search with headings");
+  }
+};
+
+}  // namespace parley

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "parley_geometry/motion.h"
+#include "reference_path.h"
+#include "surroundings.h"
+
+namespace parley {
+
+struct SightLawOptions {
+  double intruder_speed = 2.0;      // [m/s] of what nobody has seen
+  double intruder_radius = 0.2;     // [m] of the smallest disc in one
+  double intruder_clearance = 0.4;  // [m] of its middle from walls: it too keeps away from blind corners
+  double reaction_time = 0.2;       // [s] from first sight to braking, either robot
+  double contact_distance = 0.8;    // [m] between the middles of two robots that touch
+  double least_speed = 0.3;         // [m/s] never slower: it would not help, and the robot must get on
+  double look_ahead_time = 0.2;     // [s] until the next plan knows more
+};
+
+/// How fast one may drive so that a robot that comes out of hidden space and obeys the same law can still be avoided by both
+/// braking. Keeps a grid of where a robot could be that nobody sees: all that is hidden at first; then what is seen is taken
+/// out, and what is left grows by the speed of robots wherever one fits.
+class SightLaw {
+ public:
+  SightLaw(const SightLawOptions& options, const MotionLimits& limits);
+
+  void reset();
+  /// Takes in what the newest scan sees at `now` [s] from `pose`, and how far off on the way to each place the nearest
+  /// possible intruder is.
+  void observe(const Surroundings& surroundings, const ObstacleScan& scan, const Pose2& T_odom_scan,
+               const std::vector<TrackedObject>& tracks, const Pose2& pose, double now);
+  /// [m/s] for each point of a path on which the robot is at arc length `start_s` [m], driving at `speed` [m/s].
+  std::vector<double> bounds(const ReferencePath& path, double start_s, double speed) const;
+  /// [m/s] for a gap [m] between the middles of two robots driving at each other: both brake after the reaction time.
+  double speedFor(double gap) const;
+  /// Distance [m] that an intruder must at least drive to a place; `kFarGap` where none comes near.
+  double gapAt(const Eigen::Vector2d& p_odom) const;
+  bool possibleAt(const Eigen::Vector2d& p_odom) const;
+
+ private:
+  using Mask = std::vector<std::uint8_t>;
+  using Costs = std::vector<int>;
+  Mask carriedOver(const GridFrame& frame) const;
+  /// Cells where a robot that keeps its distance from walls, or the middle where it cannot, would drive.
+  Mask middleOfWays(const std::vector<float>& rooms) const;
+  Mask hidden(const ObstacleScan& scan, const Pose2& T_odom_scan) const;
+  /// Driving distance from the nearest source, in units of a tenth of a cell, through cells whose price is not zero.
+  Costs spread(const Costs& sources, const Mask& prices, int most) const;
+
+  SightLawOptions options_;
+  MotionLimits limits_;
+  GridFrame frame_;
+  Mask possible_;  // cells where the middle of an unseen robot may be
+  Costs gaps_;
+  double updated_at_ = -1e9;  // [s]
+};
+
+constexpr double kFarGap = 5.0;  // [m]
+
+}  // namespace parley

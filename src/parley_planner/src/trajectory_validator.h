@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "margins.h"
+#include "parley_geometry/footprint.h"
+#include "parley_geometry/local_map.h"
+#include "parley_geometry/scan.h"
+#include "parley_geometry/status.h"
+#include "parley_geometry/tracked_object.h"
+#include "parley_geometry/trajectory.h"
+
+namespace parley {
+
+enum class Flaw {
+  kNone,
+  kEmpty,
+  kNotFinite,
+  kDiscontinuous,  // does not begin in the state it must
+  kLimits,         // faster or more sudden than the drive
+  kDoesNotStop,    // its last state moves
+  kObstacle,       // comes too near to a return or an occupied cell
+  kUnseen,         // enters space that has not been seen free
+  kTrack           // comes too near to where a moving thing will be
+};
+
+struct Verdict {
+  Flaw flaw = Flaw::kNone;
+  double time = 0.0;  // [s] of the first flawed state
+  bool good() const { return flaw == Flaw::kNone; }
+};
+
+/// What is known of the surroundings when a trajectory is judged.
+struct Evidence {
+  const LocalMap& map;
+  const ObstacleScan& scan;
+  Pose2 T_odom_scan;
+  const std::vector<TrackedObject>& tracks;
+};
+
+/// Judges a trajectory by the exact rectangle against every return of the newest scan and every occupied cell. Shares no
+/// code with what generates trajectories.
+class TrajectoryValidator {
+ public:
+  TrajectoryValidator(const Footprint& footprint, const MotionLimits& limits, double prediction_time, double track_margin);
+
+  /// Takes in new evidence, which must outlive the calls that follow.
+  void observe(const Evidence& evidence);
+
+  /// A trajectory about to be committed: all of it, from the state it must begin in.
+  Verdict check(const SampledTrajectory& trajectory, const TrajectoryPoint& begin, const Margins& margins) const;
+  /// What is left of a committed one from `time` [s] on: the surroundings only.
+  Verdict checkRest(const SampledTrajectory& trajectory, double time, const Margins& margins) const;
+
+ private:
+  Verdict checkMotion(const std::vector<TrajectoryPoint>& points, const TrajectoryPoint& begin) const;
+  Verdict checkPlaces(const std::vector<TrajectoryPoint>& points, const Margins& margins) const;
+  void addPoint(const Eigen::Vector2d& p_odom);
+  double obstacleDistance(const Pose2& pose) const;
+  double trackDistance(const TrajectoryPoint& point) const;
+  int unseenCells(const Pose2& pose) const;
+  bool seenThrough(const Eigen::Vector2d& p_odom) const;
+
+  Footprint footprint_;
+  MotionLimits limits_;
+  double prediction_time_;
+  double track_margin_;
+
+  const LocalMap* map_ = nullptr;
+  const ObstacleScan* scan_ = nullptr;
+  const std::vector<TrackedObject>* tracks_ = nullptr;
+  Pose2 T_scan_odom_;
+  GridFrame buckets_frame_;
+  std::vector<std::vector<Eigen::Vector2d>> buckets_;  // [m] obstacle points by place, odom frame
+};
+
+}  // namespace parley

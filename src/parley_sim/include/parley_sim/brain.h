@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "parley_geometry/motion.h"
+#include "parley_geometry/status.h"
+#include "parley_sim/scenario.h"
+#include "parley_sim/simulated_robot.h"
+
+namespace parley::sim {
+
+/// The stages whose time is reported, in the order of `BrainOutput::stage_seconds`.
+constexpr std::array<const char*, 8> kStageNames{"lidar",      "map_fusion", "topology", "route", "relative_localization",
+                                                 "local_plan", "trajectory", "control"};
+
+/// What a robot's mind answers to what its sensors say.
+struct BrainOutput {
+  Twist2 twist;
+  DriveState state = DriveState::kStopped;
+  std::vector<Payload> packets;  // to broadcast
+  std::array<double, kStageNames.size()> stage_seconds{-1.0, -1.0, -1.0, -1.0, -1.0, -1.0, -1.0, -1.0};  // negative: did not run
+  int replans = 0;         // [-] since the start, as the two below
+  int route_switches = 0;
+  int escapes = 0;
+};
+
+/// The mind of one robot. An interface, so that the runner can be tested with minds that do one simple thing.
+class Brain {
+ public:
+  virtual ~Brain() = default;
+  virtual BrainOutput step(const SensorReadings& readings) = 0;
+};
+
+/// Makes the mind of a robot when it appears in the world; throws InputError if it cannot be configured.
+using BrainFactory = std::function<std::unique_ptr<Brain>(const RobotSpec& spec, double goal_tolerance)>;
+
+}  // namespace parley::sim

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "parley_sim/fleet_runner.h"
+
+namespace parley::sim {
+
+/// What has no value has none here, and is null in the file.
+struct RobotResult {
+  std::string name;
+  bool reached = false;
+  std::optional<double> time;           // [s] from its appearance to its arrival
+  double length = 0.0;                  // [m]
+  double straight = 0.0;                // [m]
+  std::optional<double> shortest;       // [m]
+  std::optional<double> mean_speed;     // [m/s]
+  std::optional<double> min_clearance;  // [m]
+  double stopped = 0.0;                 // [s]
+  int escapes = 0, replans = 0, route_switches = 0;
+  std::string final_state;
+  std::int64_t tx_bytes = 0, rx_bytes = 0;
+};
+
+struct StageTiming {
+  std::optional<double> p50, p99;  // [ms]
+};
+
+struct Result {
+  std::string scenario;
+  std::uint64_t seed = 0;
+  std::string variant;
+  bool success = false;
+  int static_collisions = 0, robot_collisions = 0, moving_collisions = 0, touched = 0;
+  std::optional<double> mean_time, mean_length, path_optimality, mean_regret;  // over robots that reached
+  std::vector<RobotResult> robots;
+  double bytes_per_second_per_robot = 0.0;
+  bool nothing_sent = true;
+  std::optional<double> delivered;  // [-]
+  int encounters = 0;
+  std::array<StageTiming, kStageNames.size()> timing;
+  double simulated = 0.0;  // [s]
+  double wall = 0.0;       // [s]
+
+  int collisions() const { return static_collisions + robot_collisions + moving_collisions; }
+  int reachedCount() const;
+};
+
+/// `wall`: how long the run took. [s]
+Result resultOf(const FleetRunner& runner, const std::string& variant, double wall);
+
+/// The result as a JSON text; the same run gives the same text but for `wall` and `timing_ms`.
+std::string toJson(const Result& result);
+
+/// One line for people.
+std::string summaryOf(const Result& result);
+
+}  // namespace parley::sim

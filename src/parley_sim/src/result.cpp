@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "parley_sim/result.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "parley_sim/shortest_path.h"
+
+namespace parley::sim {
+namespace {
+
+constexpr double kDiscRadius = 0.25;  // [m] of the disc whose shortest path is the yardstick
+
+RobotResult robotResult(const FleetRunner& runner, std::size_t index) {
+  const Simulation& simulation = runner.simulation();
+  const RobotSpec& spec = simulation.scenario().robots[index];
+  const RobotRecord& record = simulation.referee().records()[index];
+  const BrainOutput& output = runner.output(index);
+  RobotResult robot;
+  robot.name = spec.name;
+  robot.reached = record.reached;
+  robot.length = record.length;
+  if (record.reached) robot.time = record.time;
+  if (record.reached && record.time > 0.0) robot.mean_speed = record.length / record.time;
+  robot.straight = (spec.goal - spec.start.position()).norm();
+  robot.shortest = shortestLength(simulation.world(), spec.start.position(), spec.goal, kDiscRadius);
+  if (std::isfinite(record.min_clearance)) robot.min_clearance = record.min_clearance;
+  robot.stopped = record.stopped;
+  robot.escapes = output.escapes;
+  robot.replans = output.replans;
+  robot.route_switches = output.route_switches;
+  robot.final_state = toString(runner.state(index));
+  robot.tx_bytes = simulation.radio().tx_bytes[index];
+  robot.rx_bytes = simulation.radio().rx_bytes[index];
+  return robot;
+}
+
+/// Mean over the robots for which `value` gives one.
+template <class Value>
+std::optional<double> meanOver(const std::vector<RobotResult>& robots, Value value) {
+  double sum = 0.0;
+  int count = 0;
+  for (const RobotResult& robot : robots) {
+    const std::optional<double> one = robot.reached ? value(robot) : std::nullopt;
+    if (!one) continue;
+    sum += *one;
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  return sum / count;
+}
+
+std::optional<double> ratio(double a, double b) { return b > 0.0 ? std::optional<double>(a / b) : std::nullopt; }
+
+std::optional<double> percentile(std::vector<float> seconds, double fraction) {
+  if (seconds.empty()) return std::nullopt;
+  const auto rank = static_cast<std::ptrdiff_t>(fraction * static_cast<double>(seconds.size() - 1) + 0.5);
+  std::nth_element(seconds.begin(), seconds.begin() + rank, seconds.end());
+  return 1000.0 * static_cast<double>(seconds[static_cast<std::size_t>(rank)]);
+}
+
+void addRadio(const Simulation& simulation, Result& result) {
+  const RadioCounters& radio = simulation.radio();
+  std::int64_t total = 0;
+  for (const std::int64_t bytes : radio.tx_bytes) total += bytes;
+  const double robot_seconds = simulation.time() * static_cast<double>(radio.tx_bytes.size());
+  if (robot_seconds > 0.0) result.bytes_per_second_per_robot = static_cast<double>(total) / robot_seconds;
+  result.nothing_sent = total == 0;
+  result.delivered = ratio(static_cast<double>(radio.received), static_cast<double>(radio.expected));
+}
+
+}  // namespace
+
+int Result::reachedCount() const {
+  return static_cast<int>(std::count_if(robots.begin(), robots.end(), [](const RobotResult& r) { return r.reached; }));
+}
+
+Result resultOf(const FleetRunner& runner, const std::string& variant, double wall) {
+  const Simulation& simulation = runner.simulation();
+  const Referee& referee = simulation.referee();
+  Result result;
+  result.scenario = simulation.scenario().name;
+  result.seed = simulation.scenario().seed;
+  result.variant = variant;
+  result.success = referee.success();
+  result.static_collisions = referee.collisions(ContactKind::kStatic);
+  result.robot_collisions = referee.collisions(ContactKind::kRobot);
+  result.moving_collisions = referee.collisions(ContactKind::kMoving);
+  result.touched = referee.touched();
+  for (std::size_t i = 0; i < simulation.scenario().robots.size(); ++i) result.robots.push_back(robotResult(runner, i));
+  using Robot = const RobotResult&;
+  result.mean_time = meanOver(result.robots, [](Robot r) { return r.time; });
+  result.mean_length = meanOver(result.robots, [](Robot r) { return std::optional<double>(r.length); });
+  result.path_optimality = meanOver(result.robots, [](Robot r) { return ratio(r.straight, r.length); });
+  result.mean_regret = meanOver(result.robots, [](Robot r) { return r.shortest ? ratio(r.length, *r.shortest) : std::nullopt; });
+  addRadio(simulation, result);
+  result.encounters = static_cast<int>(simulation.encounters().size());
+  for (std::size_t stage = 0; stage < kStageNames.size(); ++stage) {
+    const std::vector<float>& seconds = runner.stageTimes()[stage];
+    result.timing[stage] = {percentile(seconds, 0.5), percentile(seconds, 0.99)};
+  }
+  result.simulated = simulation.time();
+  result.wall = wall;
+  return result;
+}
+
+}  // namespace parley::sim

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "parley_sim/stack_brain.h"
+
+#include <algorithm>
+
+#include "parley_robot/config.h"
+#include "parley_robot/robot_stack.h"
+#include "parley_sim/input_error.h"
+
+namespace parley::sim {
+namespace {
+
+std::string joined(const std::vector<std::string>& problems) {
+  std::string line;
+  for (const std::string& problem : problems) line += (line.empty() ? "" : "; ") + problem;
+  return line;
+}
+
+RobotOptions optionsFor(RobotOptions options, const RobotSpec& spec, double goal_tolerance) {
+  options.name = spec.name;
+  options.footprint = spec.footprint;
+  options.limits = spec.limits;
+  options.mount.x = spec.lidar.pose.x;
+  options.mount.y = spec.lidar.pose.y;
+  options.mount.z = spec.lidar.height;
+  options.mount.yaw = wrapAngle(spec.lidar.pose.yaw);
+  options.goal_tolerance = goal_tolerance;
+  return options;
+}
+
+class StackBrain : public Brain {
+ public:
+  StackBrain(const RobotOptions& options, const Eigen::Vector2d& goal_odom) : stack_(options) { stack_.setGoal(goal_odom); }
+
+  BrainOutput step(const SensorReadings& readings) override {
+    if (readings.odometry) stack_.addOdometry(*readings.odometry);
+    if (readings.scan) stack_.addScan(*readings.scan);
+    if (readings.cloud) stack_.addCloud(*readings.cloud);
+    const RobotOutput robot = stack_.step(readings.clock);
+    BrainOutput output;
+    output.twist = robot.twist;
+    output.state = robot.state;
+    for (const Packet& packet : robot.packets) output.packets.push_back(packet.bytes);
+    const StageTimes& times = robot.times;
+    output.stage_seconds = {times.lidar,      times.map_fusion, times.topology, times.route, times.relative_localization,
+                            times.local_plan, times.trajectory, times.control};
+    output.replans = robot.replans;
+    output.route_switches = robot.route_switches;
+    output.escapes = robot.escapes;
+    return output;
+  }
+
+ private:
+  RobotStack stack_;
+};
+
+}  // namespace
+
+const std::vector<std::string>& variantNames() {
+  static const std::vector<std::string> kNames{"full", "no_sharing", "no_conflict_resolution", "reactive"};
+  return kNames;
+}
+
+BrainFactory stackBrains(const std::string& config_directory, const std::string& variant) {
+  const std::vector<std::string>& names = variantNames();
+  const auto name = std::find(names.begin(), names.end(), variant);
+  if (name == names.end()) throw InputError("--variant: " + variant + ": there is no such variant");
+  RobotOptions options;
+  options.variant = static_cast<Variant>(name - names.begin());
+  if (!config_directory.empty()) {
+    const std::vector<std::string> problems = loadConfig(config_directory, options);
+    if (!problems.empty()) throw InputError(joined(problems));
+  }
+  return [options](const RobotSpec& spec, double goal_tolerance) -> std::unique_ptr<Brain> {
+    const RobotOptions own = optionsFor(options, spec, goal_tolerance);
+    const std::vector<std::string> problems = checkRobot(own);
+    if (!problems.empty()) throw InputError(spec.name + ": " + joined(problems));
+    return std::make_unique<StackBrain>(own, spec.goalInOdom());
+  };
+}
+
+}  // namespace parley::sim

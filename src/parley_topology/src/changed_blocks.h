@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "tiled_map.h"
+
+namespace parley {
+
+/// The blocks of the map that changed in an update, for asking which straight ways lead past them.
+class ChangedBlocks {
+ public:
+  /// Ways within `influence` [m] of a changed distance count as touched in their surroundings.
+  ChangedBlocks(const TiledMap& map, double influence);
+
+  enum Touch : std::uint8_t { kUntouched = 0, kSeenTouched = 1, kFieldTouched = 2 };
+  /// What a way leads past, kFieldTouched before kSeenTouched.
+  Touch touchOf(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
+
+  /// Whether a point is further than `reach` [m] from all that changed, in x or in y.
+  bool isFarFrom(const Eigen::Vector2d& p, double reach) const;
+  bool empty() const { return touch_.empty(); }
+
+ private:
+  std::uint8_t& at(int x, int y) { return touch_[static_cast<std::size_t>((y - rect_.y0) * rect_.width() + x - rect_.x0)]; }
+  std::uint8_t at(int x, int y) const { return touch_[static_cast<std::size_t>((y - rect_.y0) * rect_.width() + x - rect_.x0)]; }
+  void mark(const Tile& tile, int margin);
+
+  double block_;   // [m] side of a block
+  CellRect rect_;  // in blocks
+  std::vector<std::uint8_t> touch_;
+};
+
+}  // namespace parley

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "clearance_field.h"
+
+#include <opencv2/imgproc.hpp>
+
+namespace parley {
+namespace {
+
+CellRect changedRect(const Tile& tile) {
+  CellRect rect{kTileSize, kTileSize, 0, 0};
+  for (int block = 0; block < 16; ++block) {
+    if (!(tile.changed_cells & (1U << block))) continue;
+    const int x = (block & 3) * kBlockSize, y = (block >> 2) * kBlockSize;
+    rect = rect.united({x, y, x + kBlockSize, y + kBlockSize});
+  }
+  const int x0 = tile.tx * kTileSize, y0 = tile.ty * kTileSize;
+  return {rect.x0 + x0, rect.y0 + y0, rect.x1 + x0, rect.y1 + y0};
+}
+
+double areaOf(const CellRect& rect) { return static_cast<double>(rect.width()) * rect.height(); }
+
+/// Joins windows as long as working on the joint one, grown by `halo`, is no more work than on both.
+std::vector<CellRect> joined(const std::vector<CellRect>& rects, int halo) {
+  std::vector<CellRect> windows;
+  for (CellRect rect : rects) {
+    for (std::size_t i = 0; i < windows.size();) {
+      const CellRect both = rect.united(windows[i]);
+      if (areaOf(both.grown(halo)) <= areaOf(rect.grown(halo)) + areaOf(windows[i].grown(halo))) {
+        rect = both;
+        windows.erase(windows.begin() + static_cast<std::ptrdiff_t>(i));
+        i = 0;
+      } else {
+        ++i;
+      }
+    }
+    windows.push_back(rect);
+  }
+  return windows;
+}
+
+/// A picture of a window: value(tile, offset) of every cell, `nothing` where there is no tile.
+template <class Value>
+cv::Mat1b picture(const TiledMap& map, const CellRect& rect, std::uint8_t nothing, const Value& value) {
+  cv::Mat1b image(rect.height(), rect.width(), nothing);
+  forEachTile(rect, [&](int tx, int ty, const CellRect& part) {
+    const Tile* tile = map.find(tx, ty);
+    if (!tile) return;
+    for (int y = part.y0; y < part.y1; ++y) {
+      std::uint8_t* out = image.ptr(y - rect.y0) + (part.x0 - rect.x0);
+      const std::size_t first = offsetOf(part.x0, y);
+      for (std::size_t i = 0; i < static_cast<std::size_t>(part.width()); ++i) out[i] = value(*tile, first + i);
+    }
+  });
+  return image;
+}
+
+bool hasLayers(const TiledMap& map, const CellRect& rect) {
+  bool any = false;
+  forEachTile(rect, [&](int tx, int ty, const CellRect&) {
+    const Tile* tile = map.find(tx, ty);
+    any = any || (tile && tile->layers);
+  });
+  return any;
+}
+
+void setBit(std::uint8_t& flags, std::uint8_t bit, bool on) {
+  flags = static_cast<std::uint8_t>(on ? flags | bit : flags & ~bit);
+}
+
+/// Own sensing where it has looked and up to the layer distance around, layers beyond.
+void fuse(TiledMap& map, const CellRect& rect, const FieldShape& shape) {
+  const int gap = static_cast<int>(std::lround(shape.layer_distance / map.resolution()));
+  cv::Mat1b near_seen;
+  if (hasLayers(map, rect)) {
+    const auto seen = [](const Tile& tile, std::size_t i) -> std::uint8_t { return tile.flags[i] & kSeen ? 255 : 0; };
+    near_seen = picture(map, rect.grown(gap), 0, seen);
+    cv::dilate(near_seen, near_seen, cv::Mat(), cv::Point(-1, -1), gap);
+  }
+  forEachTile(rect, [&](int tx, int ty, const CellRect& part) {
+    Tile* tile = map.find(tx, ty);
+    if (!tile) return;
+    for (int y = part.y0; y < part.y1; ++y) {
+      for (int x = part.x0; x < part.x1; ++x) {
+        const std::size_t i = offsetOf(x, y);
+        std::uint8_t& flags = tile->flags[i];
+        const bool own_word = !tile->layers || near_seen(y - rect.y0 + gap, x - rect.x0 + gap);
+        setBit(flags, kFused, (flags & kOwn) || (!own_word && tile->layers->hard[i] > 0));
+        setBit(flags, kTentative, !own_word && tile->layers->soft[i] > 0);
+      }
+    }
+  });
+}
+
+/// Distances and what follows from them, for a window; `wide` and `passable` as 0 or 255.
+struct FieldImage {
+  CellRect rect;
+  cv::Mat1b distance, wide, passable;
+};
+
+FieldImage measure(const TiledMap& map, const CellRect& rect, const FieldShape& shape) {
+  const double per_cell = kFarAway * map.resolution() / shape.reach;
+  const int halo = static_cast<int>(std::ceil(shape.reach / map.resolution())) + 1;
+  const auto is_free = [](const Tile& tile, std::size_t i) -> std::uint8_t { return tile.flags[i] & kFused ? 0 : 255; };
+  const cv::Mat1b source = picture(map, rect.grown(halo + 1), 255, is_free);
+  cv::Mat1f cells;
+  cv::distanceTransform(source, cells, cv::DIST_L2, cv::DIST_MASK_5, CV_32F);
+
+  FieldImage image;
+  image.rect = rect;
+  const cv::Rect inner(halo, halo, rect.width() + 2, rect.height() + 2);  // a cell more to each side, to dilate
+  cells(inner).convertTo(image.distance, CV_8U, per_cell);
+  image.wide = image.distance >= shape.grown_radius / shape.reach * kFarAway;
+  cv::dilate(image.wide, image.passable, cv::getStructuringElement(cv::MORPH_RECT, {3, 3}));
+  const cv::Rect core(1, 1, rect.width(), rect.height());
+  image.distance = image.distance(core);
+  image.wide = image.wide(core);
+  image.passable = image.passable(core);
+  return image;
+}
+
+bool isFar(const FieldImage& image, const CellRect& part) {
+  const cv::Rect inside(part.x0 - image.rect.x0, part.y0 - image.rect.y0, part.width(), part.height());
+  const cv::Mat1b distance = image.distance(inside);
+  double least = kFarAway;
+  cv::minMaxLoc(distance, &least, nullptr);
+  return least >= kFarAway;
+}
+
+void store(TiledMap& map, const FieldImage& image) {
+  forEachTile(image.rect, [&](int tx, int ty, const CellRect& part) {
+    Tile* tile = map.find(tx, ty);
+    if (!tile && !isFar(image, part)) tile = map.ensure(tx, ty);
+    if (!tile) return;
+    for (int y = part.y0; y < part.y1; ++y) {
+      const int row = y - image.rect.y0;
+      for (int x = part.x0; x < part.x1; ++x) {
+        const int column = x - image.rect.x0;
+        const std::size_t i = offsetOf(x, y);
+        std::uint8_t flags = tile->flags[i];
+        setBit(flags, kWide, image.wide(row, column));
+        setBit(flags, kPassable, image.passable(row, column));
+        const std::uint8_t distance = image.distance(row, column);
+        if (flags == tile->flags[i] && distance == tile->distance[i]) continue;
+        tile->flags[i] = flags;
+        tile->distance[i] = distance;
+        tile->changed_field = static_cast<std::uint16_t>(tile->changed_field | blockBit(x, y));
+      }
+    }
+  });
+}
+
+}  // namespace
+
+void refreshField(TiledMap& map, const FieldShape& shape) {
+  std::vector<CellRect> rects;
+  for (const auto& tile : map.tiles()) {
+    if (tile->changed_cells) rects.push_back(changedRect(*tile));
+    tile->changed_cells = 0;
+  }
+  const int gap = static_cast<int>(std::lround(shape.layer_distance / map.resolution()));
+  const int halo = static_cast<int>(std::ceil(shape.reach / map.resolution()));
+  for (const CellRect& window : joined(rects, 2 * halo)) {
+    fuse(map, window.grown(gap), shape);
+    store(map, measure(map, window.grown(gap + halo), shape));
+  }
+}
+
+}  // namespace parley

@@ -1,0 +1,260 @@
+#include <cstdio>
+// SPDX-License-Identifier: BSD-3-Clause
+#include "graph_builder.h"
+
+#include <limits>
+
+namespace parley {
+namespace {
+
+constexpr double kTangentSlack = 0.15;  // [-] sine of the angle by which an edge may cut into the outline it should touch
+constexpr double kMatchDistance = 0.3;  // [m] a corner that moved less keeps its name
+constexpr double kMatchTurn = 0.7;      // [-] cosine of the angle a corner may turn and keep its name
+
+bool sameProvenance(const Provenance& a, const Provenance& b) { return a.origin == b.origin && a.hops == b.hops; }
+
+bool sameCorner(const Vertex& a, const Vertex& b) {
+  return a.position == b.position && a.previous == b.previous && a.next == b.next && a.direction == b.direction &&
+         a.kind == b.kind && sameProvenance(a.provenance, b.provenance);
+}
+
+/// Index of the corner in `candidates` (slots, -1 for taken) that `corner` goes on from; -1 if it is new.
+int nearestMatch(const VisibilityGraph& graph, const std::vector<int>& candidates, const Vertex& corner) {
+  int best = -1;
+  double least = kMatchDistance;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (candidates[i] < 0) continue;
+    const Vertex& old = graph.vertex(candidates[i]);
+    const double distance = (old.position - corner.position).norm();
+    if (distance >= least || old.kind != corner.kind || old.direction.dot(corner.direction) < kMatchTurn) continue;
+    best = static_cast<int>(i);
+    least = distance;
+  }
+  return best;
+}
+
+/// Tiles whose contours or corners may be others now: those that changed and those beside them, in a fixed order.
+std::vector<Tile*> tilesToTrace(TiledMap& map) {
+  std::vector<Tile*> touched;
+  for (const auto& tile : map.tiles()) {
+    if (!tile->changed_field) continue;
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        Tile* near = map.find(tile->tx + dx, tile->ty + dy);
+        if (near) touched.push_back(near);
+      }
+    }
+  }
+  std::sort(touched.begin(), touched.end(),
+            [](const Tile* a, const Tile* b) { return a->ty != b->ty ? a->ty < b->ty : a->tx < b->tx; });
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  return touched;
+}
+
+}  // namespace
+
+GraphBuilder::Result GraphBuilder::update(TiledMap& map, const LayerStore& layers) {
+  Result result;
+  const ChangedBlocks changed(map, options_.clearance_cap);
+  if (changed.empty()) return result;
+  const std::vector<Tile*> touched = tilesToTrace(map);
+  for (Tile* tile : touched) tile->chains = traceTile(map, tile->tx, tile->ty, shape_, options_.simplify);
+  const std::vector<int> fresh = matchCorners(map, touched, layers, result);
+  const bool edges_changed = refreshPairs(map, changed);
+  std::vector<char> pending(static_cast<std::size_t>(graph_.slotCount()), 0);
+  for (const int slot : fresh) pending[static_cast<std::size_t>(slot)] = 1;
+  for (const int slot : fresh) {
+    pending[static_cast<std::size_t>(slot)] = 0;
+    connect(map, slot, pending);
+  }
+  fprintf(stderr,"Y %zu %d\n", fresh.size(), result.removed);
+  for (const auto& tile : map.tiles()) tile->changed_field = tile->changed_seen = 0;
+  result.changed = edges_changed || result.added + result.removed > 0;
+  return result;
+}
+
+/// The paper's MergeTopologies: corners found again stay, with their edges if nothing about them changed; others come and
+/// go. Returns the slots of those whose edges have to be looked for.
+std::vector<int> GraphBuilder::matchCorners(TiledMap& map, const std::vector<Tile*>& tiles, const LayerStore& layers,
+                                            Result& result) {
+  std::vector<int> fresh;
+  for (Tile* tile : tiles) {
+    std::vector<Vertex> found = cornersOf(map, *tile, shape_, options_.simplify, layers);
+    std::vector<int> old = std::move(tile->vertices);
+    tile->vertices.clear();
+    std::vector<Vertex> moved;
+    for (const Vertex& corner : found) {
+      const auto same = std::find_if(old.begin(), old.end(),
+                                     [&](int slot) { return slot >= 0 && sameCorner(graph_.vertex(slot), corner); });
+      if (same == old.end()) {
+        moved.push_back(corner);
+        continue;
+      }
+      ++graph_.vertex(*same).votes;
+      tile->vertices.push_back(*same);
+      *same = -1;
+    }
+    for (Vertex& corner : moved) {
+      const int match = nearestMatch(graph_, old, corner);
+      if (match >= 0) {
+        int& slot = old[static_cast<std::size_t>(match)];
+        corner.id = graph_.vertex(slot).id;
+        corner.votes = graph_.vertex(slot).votes + 1;
+        removeVertex(slot);
+        slot = -1;
+      } else {
+        corner.id = next_id_++;
+      }
+    }
+    for (const int slot : old) {
+      if (slot < 0) continue;
+      removeVertex(slot);
+      ++result.removed;
+    }
+    for (const Vertex& corner : moved) {
+      if (graph_.vertexCount() >= options_.max_vertices) {
+        saturated_ = true;
+        break;
+      }
+      const int slot = graph_.addVertex(corner);
+      if (static_cast<std::size_t>(slot) >= pairs_of_.size()) pairs_of_.emplace_back();
+      tile->vertices.push_back(slot);
+      fresh.push_back(slot);
+      ++result.added;
+    }
+  }
+  return fresh;
+}
+
+/// Looks again at edges that lead past a change, and at pairs that were shut where something changed.
+bool GraphBuilder::refreshPairs(TiledMap& map, const ChangedBlocks& changed) {
+  const Sight sight(map, options_, shape_);
+  std::vector<int> affected = pairsNoLongerShut(map);
+  bool any = !affected.empty();
+  for (int slot = 0; slot < graph_.slotCount(); ++slot) {
+    if (!graph_.has(slot) || changed.isFarFrom(graph_.vertex(slot).position, options_.max_edge)) continue;
+    for (const VisibilityGraph::Link& link : graph_.links(slot)) {
+      Edge& edge = graph_.edge(link.edge);
+      if (edge.from != slot) continue;
+      const Eigen::Vector2d& a = graph_.vertex(slot).position;
+      const Eigen::Vector2d& b = graph_.vertex(link.to).position;
+      const ChangedBlocks::Touch touch = changed.touchOf(a, b);
+      any = any || touch != ChangedBlocks::kUntouched;
+      if (touch == ChangedBlocks::kFieldTouched) affected.push_back(pair_of_edge_[static_cast<std::size_t>(link.edge)]);
+      if (touch == ChangedBlocks::kSeenTouched) sight.measureSeenAgain(edge, a, b);
+    }
+  }
+  fprintf(stderr,"X %zu %d %d\n", affected.size(), graph_.vertexCount(), graph_.edgeCount());
+  for (const int pair : affected) settle(map, pair);
+  return any;
+}
+
+/// Pairs whose watched cell is passable now; takes them off the watch.
+std::vector<int> GraphBuilder::pairsNoLongerShut(TiledMap& map) {
+  std::vector<int> freed;
+  for (const auto& tile : map.tiles()) {
+    if (!tile->changed_field) continue;
+    std::vector<Watch> kept;
+    for (const Watch& watch : tile->watches) {
+      const Pair& pair = pairs_[static_cast<std::size_t>(watch.pair)];
+      if (pair.version != watch.version) continue;
+      const bool shut = !(map.flags(pair.blocked_at.x(), pair.blocked_at.y()) & kPassable);
+      if (shut) kept.push_back(watch);
+      if (!shut) freed.push_back(watch.pair);
+    }
+    tile->watches = std::move(kept);
+  }
+  return freed;
+}
+
+void GraphBuilder::connect(TiledMap& map, int slot, const std::vector<char>& pending) {
+  const Vertex vertex = graph_.vertex(slot);
+  for (int other = 0; other < graph_.slotCount(); ++other) {
+    if (other == slot || !graph_.has(other) || pending[static_cast<std::size_t>(other)]) continue;
+    const Vertex& end = graph_.vertex(other);
+    const Eigen::Vector2d way = end.position - vertex.position;
+    const double length = way.norm();
+    if (length > options_.max_edge || length < 1e-6) continue;
+    const Eigen::Vector2d ray = way / length;
+    if (!isTangent(vertex, ray, kTangentSlack) || !isTangent(end, ray, kTangentSlack)) continue;
+    int pair = static_cast<int>(pairs_.size());
+    if (!free_pairs_.empty()) {
+      pair = free_pairs_.back();
+      free_pairs_.pop_back();
+    } else if (pair < options_.max_pairs) {
+      pairs_.emplace_back();
+    } else {
+      saturated_ = true;
+      return;
+    }
+    Pair& made = pairs_[static_cast<std::size_t>(pair)];
+    made.a = slot;
+    made.b = other;
+    pairs_of_[static_cast<std::size_t>(slot)].push_back(pair);
+    pairs_of_[static_cast<std::size_t>(other)].push_back(pair);
+    settle(map, pair);
+  }
+}
+
+/// Walks a pair's way: makes, measures or removes its edge, and sets its watch.
+void GraphBuilder::settle(TiledMap& map, int pair) {
+  Pair& p = pairs_[static_cast<std::size_t>(pair)];
+  const Sight sight(map, options_, shape_);
+  const Vertex& a = graph_.vertex(p.a);
+  const Vertex& b = graph_.vertex(p.b);
+  const Walk walk = sight.walk(a.position, b.position);
+  ++p.version;
+  if (!walk.open) {
+    if (p.edge >= 0) graph_.removeEdge(p.edge);
+    p.edge = -1;
+    p.blocked_at = walk.blocked_at;
+    watch(map, pair);
+    return;
+  }
+  Edge edge = sight.measure(a.position, b.position);
+  edge.from = p.a;
+  edge.to = p.b;
+  edge.provenance = a.provenance.hops >= b.provenance.hops ? a.provenance : b.provenance;
+  if (p.edge >= 0) {
+    graph_.edge(p.edge) = edge;
+  } else {
+    p.edge = graph_.addEdge(edge);
+    if (static_cast<std::size_t>(p.edge) >= pair_of_edge_.size()) pair_of_edge_.resize(static_cast<std::size_t>(p.edge) + 1);
+    pair_of_edge_[static_cast<std::size_t>(p.edge)] = pair;
+  }
+}
+
+void GraphBuilder::watch(TiledMap& map, int pair) {
+  const Pair& p = pairs_[static_cast<std::size_t>(pair)];
+  Tile& tile = *map.find(tileOf(p.blocked_at.x()), tileOf(p.blocked_at.y()));  // only cells of tiles block
+  if (tile.watches.size() > 2 * tile.watches_after_sweep + 64) {
+    const auto stale = [this](const Watch& w) { return pairs_[static_cast<std::size_t>(w.pair)].version != w.version; };
+    tile.watches.erase(std::remove_if(tile.watches.begin(), tile.watches.end(), stale), tile.watches.end());
+    tile.watches_after_sweep = tile.watches.size();
+  }
+  tile.watches.push_back({pair, p.version});
+}
+
+void GraphBuilder::removeVertex(int slot) {
+  std::vector<int>& pairs = pairs_of_[static_cast<std::size_t>(slot)];
+  while (!pairs.empty()) removePair(pairs.back());
+  graph_.removeVertex(slot);
+}
+
+void GraphBuilder::removePair(int pair) {
+  Pair& p = pairs_[static_cast<std::size_t>(pair)];
+  if (p.edge >= 0) graph_.removeEdge(p.edge);
+  for (const int end : {p.a, p.b}) {
+    std::vector<int>& pairs = pairs_of_[static_cast<std::size_t>(end)];
+    const auto place = std::find(pairs.begin(), pairs.end(), pair);
+    *place = pairs.back();
+    pairs.pop_back();
+  }
+  p.a = p.b = p.edge = -1;
+  ++p.version;
+  free_pairs_.push_back(pair);
+}
+
+void GraphBuilder::clear() { *this = GraphBuilder(options_, shape_); }
+
+}  // namespace parley

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "changed_blocks.h"
+#include "corners.h"
+#include "layer_store.h"
+#include "parley_topology/visibility_graph.h"
+#include "sight.h"
+#include "tiled_map.h"
+
+namespace parley {
+
+/// Keeps the visibility graph equal to what the map says, at a cost that goes with what changed.
+///
+/// Every pair of corners that see each other along both their tangents is kept, open or not. A pair that is not open is
+/// watched at the one cell that was found in its way and looked at again when that cell changes; an open one is watched
+/// in all tiles it passes.
+class GraphBuilder {
+ public:
+  GraphBuilder(const TopologyOptions& options, const FieldShape& shape) : options_(options), shape_(shape) {}
+
+  struct Result {
+    int added = 0, removed = 0;
+    bool changed = false;
+  };
+
+  /// Brings the graph up to date with the blocks noted in `changed_field`, and clears these.
+  Result update(TiledMap& map, const LayerStore& layers);
+
+  const VisibilityGraph& graph() const { return graph_; }
+  bool saturated() const { return saturated_; }
+  void clear();
+
+ private:
+  struct Pair {
+    int a = -1, b = -1;  // slots of vertices; a < 0 is an empty slot
+    int edge = -1;       // slot of the edge if open
+    std::uint32_t version = 0;
+    Eigen::Vector2i blocked_at = Eigen::Vector2i::Zero();
+  };
+
+  std::vector<int> matchCorners(TiledMap& map, const std::vector<Tile*>& tiles, const LayerStore& layers, Result& result);
+  bool refreshPairs(TiledMap& map, const ChangedBlocks& changed);
+  std::vector<int> pairsNoLongerShut(TiledMap& map);
+  void connect(TiledMap& map, int slot, const std::vector<char>& pending);
+  void settle(TiledMap& map, int pair);
+  void watch(TiledMap& map, int pair);
+  void watchTile(Tile& tile, int pair);
+  void removeVertex(int slot);
+  void removePair(int pair);
+
+  TopologyOptions options_;
+  FieldShape shape_;
+  VisibilityGraph graph_;
+  std::vector<Pair> pairs_;
+  std::vector<int> free_pairs_;
+  std::vector<int> pair_of_edge_;            // by slot of an edge
+  std::vector<std::vector<int>> pairs_of_;  // by slot of a vertex
+  int next_id_ = 0;
+  bool saturated_ = false;
+};
+
+}  // namespace parley

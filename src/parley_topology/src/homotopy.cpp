@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "homotopy.h"
+
+#include "parley_geometry/polygon.h"
+
+namespace parley {
+namespace {
+
+/// The part of the loop in which the ways differ.
+std::vector<Eigen::Vector2d> differenceLoop(const std::vector<Eigen::Vector2d>& a, const std::vector<Eigen::Vector2d>& b) {
+  std::size_t same = 0;  // points in common at the start
+  const std::size_t shorter = std::min(a.size(), b.size());
+  while (same < shorter && a[same] == b[same]) ++same;
+  std::size_t tail = 0;  // and at the end
+  while (tail + same < shorter && a[a.size() - 1 - tail] == b[b.size() - 1 - tail]) ++tail;
+  const std::size_t first = same > 0 ? same - 1 : 0;
+  const auto last = [tail](const std::vector<Eigen::Vector2d>& way) { return way.size() - (tail > 0 ? tail - 1 : 0); };
+  std::vector<Eigen::Vector2d> loop(a.begin() + static_cast<std::ptrdiff_t>(first), a.begin() + static_cast<std::ptrdiff_t>(last(a)));
+  for (std::size_t i = last(b); i > first; --i) loop.push_back(b[i - 1]);
+  return loop;
+}
+
+}  // namespace
+
+int windingNumber(const std::vector<Eigen::Vector2d>& loop, const Eigen::Vector2d& point) {
+  int winding = 0;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Eigen::Vector2d a = loop[i] - point, b = loop[(i + 1) % loop.size()] - point;
+    if ((a.y() <= 0.0) == (b.y() <= 0.0)) continue;
+    const double side = cross(a, b);
+    if (a.y() <= 0.0 && side > 0.0) ++winding;
+    if (a.y() > 0.0 && side < 0.0) --winding;
+  }
+  return winding;
+}
+
+bool sameClass(const TiledMap& map, const std::vector<Eigen::Vector2d>& a, const std::vector<Eigen::Vector2d>& b) {
+  const std::vector<Eigen::Vector2d> loop = differenceLoop(a, b);
+  if (loop.size() < 3) return true;
+  Eigen::Vector2d low = loop.front(), high = loop.front();
+  for (const Eigen::Vector2d& p : loop) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  for (const auto& tile : map.tiles()) {
+    for (const Chain& chain : tile->chains) {
+      const Eigen::Vector2d& core = chain.core;
+      if ((core.array() < low.array()).any() || (core.array() > high.array()).any()) continue;
+      if (windingNumber(loop, core) != 0) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace parley

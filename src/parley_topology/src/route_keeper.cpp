@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "route_keeper.h"
+
+#include "homotopy.h"
+#include "parley_geometry/polygon.h"
+
+namespace parley {
+namespace {
+
+constexpr double kSameGoal = 0.05;        // [m] a goal further from the last is another goal
+constexpr double kUnknownAllowed = 0.15;  // [m] of unseen cells on a route that counts as known: gaps between rays
+
+/// By slot, whether a corner is within `radius` of a way.
+std::vector<char> tubeAround(const std::vector<Eigen::Vector2d>& way, double radius, const VisibilityGraph& graph) {
+  std::vector<char> inside(static_cast<std::size_t>(graph.slotCount()), 0);
+  for (int slot = 0; slot < graph.slotCount(); ++slot) {
+    if (!graph.has(slot)) continue;
+    const Eigen::Vector2d& p = graph.vertex(slot).position;
+    for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+      if (pointSegmentDistance(p, way[i], way[i + 1]) > radius) continue;
+      inside[static_cast<std::size_t>(slot)] = 1;
+      break;
+    }
+  }
+  return inside;
+}
+
+}  // namespace
+
+FoundRoute RouteKeeper::search(const VisibilityGraph& graph, const Sight& sight, const RouteQuery& query) const {
+  if (options_.search == "depth_first") return searchDepthFirst(graph, sight, query, options_.max_expansions);
+  return searchAstar(graph, sight, query);
+}
+
+FoundRoute RouteKeeper::choose(const TiledMap& map, const VisibilityGraph& graph, const Sight& sight, const RouteQuery& query) {
+  FoundRoute best = search(graph, sight, query);
+  if (committed_.empty() || !best.exists()) return best;
+  std::vector<Eigen::Vector2d> held = committed_;  // from here back onto it; the spur encloses nothing
+  held.insert(held.begin(), query.start);
+  held.back() = query.goal;
+  if (sameClass(map, held, best.points)) return best;
+
+  RouteQuery mending = query;
+  mending.allowed = tubeAround(held, options_.class_tube, graph);
+  FoundRoute mended = search(graph, sight, mending);
+  const bool open = mended.exists() && sameClass(map, held, mended.points);
+  const double penalty = options_.switch_penalty + options_.switch_ratio * mended.cost;
+  if (open && best.cost + penalty >= mended.cost) return mended;
+  ++switches_;
+  return best;
+}
+
+Route RouteKeeper::route(const TiledMap& map, const VisibilityGraph& graph, const Sight& sight, const Eigen::Vector2d& start,
+                         const Eigen::Vector2d& goal) {
+  if (!has_goal_ || (goal - goal_).norm() > kSameGoal) {
+    clear();
+    goal_ = goal;
+    has_goal_ = true;
+  }
+  Route route;
+  route.verdict = RouteVerdict::kUnreachableAsKnown;
+  const std::optional<Eigen::Vector2d> from = sight.nearestPassable(start, options_.start_tolerance);
+  const std::optional<Eigen::Vector2d> to = sight.nearestPassable(goal, options_.goal_tolerance);
+  FoundRoute found;
+  if (from && to) found = choose(map, graph, sight, {*from, *to, {}});
+  committed_ = found.points;
+  route.switches = switches_;
+  if (!found.exists()) return route;
+  route.points = found.points;
+  route.length = found.length;
+  route.cost = found.cost;
+  route.narrowest = found.narrowest;
+  const double detour = (*from - start).norm();
+  if (detour > 0.0) route.points.insert(route.points.begin(), start);
+  route.length += detour;
+  route.cost += detour;
+  route.verdict = found.unknown_length > kUnknownAllowed ? RouteVerdict::kThroughUnknown : RouteVerdict::kThroughKnown;
+  return route;
+}
+
+}  // namespace parley

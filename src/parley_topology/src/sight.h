@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "clearance_field.h"
+#include "parley_topology/topology_options.h"
+#include "parley_topology/visibility_graph.h"
+#include "tiled_map.h"
+
+namespace parley {
+
+/// How far a straight way gets.
+struct Walk {
+  bool open = false;
+  Eigen::Vector2i blocked_at = Eigen::Vector2i::Zero();  // first cell that is not passable, if not open
+};
+
+/// Tests and measures straight ways on the map. The answer for (a, b) is that for (b, a), to the last bit.
+class Sight {
+ public:
+  Sight(const TiledMap& map, const TopologyOptions& options, const FieldShape& shape)
+      : map_(map), options_(options), shape_(shape) {}
+
+  /// Whether all cells along the way are passable.
+  Walk walk(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
+
+  /// Length, cost and what they are made of, for a way that is open.
+  Edge measure(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
+
+  /// Measures again what depends on what was seen along the way; its surroundings have not changed.
+  void measureSeenAgain(Edge& edge, const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
+
+  /// Walk and measure; nullopt if the way is not open.
+  std::optional<Edge> look(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
+
+  /// The point itself if it is passable, else the nearest middle of a passable cell within `tolerance` [m] that is not
+  /// behind something occupied; nullopt if there is none.
+  std::optional<Eigen::Vector2d> nearestPassable(const Eigen::Vector2d& p, double tolerance) const;
+
+  /// How far from an edge the map has a say in its measures. [m]
+  double influence() const { return options_.clearance_cap; }
+
+ private:
+  std::uint8_t flagsAt(const Eigen::Vector2d& p) const { return map_.flags(map_.cellOf(p.x()), map_.cellOf(p.y())); }
+  double distanceAt(const Eigen::Vector2d& p) const {
+    return metersOf(map_.distance(map_.cellOf(p.x()), map_.cellOf(p.y())), shape_.reach);
+  }
+  double roomTowards(const Eigen::Vector2d& from, const Eigen::Vector2d& direction, double enough) const;
+  void measureSeen(Edge& edge, const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
+  void measureWidth(Edge& edge, const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
+  bool reaches(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
+
+  const TiledMap& map_;
+  const TopologyOptions& options_;
+  const FieldShape& shape_;
+};
+
+/// Cost of an edge from its measures. [m]
+double costOf(const Edge& edge, const TopologyOptions& options);
+
+}  // namespace parley

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tiled_map.h"
+
+namespace parley {
+
+bool operator==(const Chain& a, const Chain& b) {
+  return a.closed == b.closed && a.turn == b.turn && a.before == b.before && a.first == b.first && a.last == b.last && a.end == b.end &&
+         a.points == b.points;
+}
+
+TiledMap::TiledMap(double resolution, double extent, int max_tiles)
+    : resolution_(resolution),
+      inverse_(1.0 / resolution),
+      extent_(extent),
+      half_(static_cast<int>(std::ceil(extent / (resolution * kTileSize))) + 1),
+      side_(static_cast<unsigned>(2 * half_)),
+      max_tiles_(static_cast<std::size_t>(max_tiles)),
+      directory_(static_cast<std::size_t>(side_) * side_, nullptr) {}
+
+Tile* TiledMap::ensure(int tx, int ty) {
+  const auto ix = static_cast<unsigned>(tx + half_), iy = static_cast<unsigned>(ty + half_);
+  if (ix >= side_ || iy >= side_) {
+    saturated_ = true;
+    return nullptr;
+  }
+  Tile*& place = directory_[iy * side_ + ix];
+  if (place) return place;
+  if (tiles_.size() >= max_tiles_) {
+    saturated_ = true;
+    return nullptr;
+  }
+  tiles_.push_back(std::make_unique<Tile>());
+  place = tiles_.back().get();
+  place->tx = tx;
+  place->ty = ty;
+  place->flags.fill(kFlagsOfNothing);
+  place->distance.fill(kFarAway);
+  return place;
+}
+
+void TiledMap::clear() {
+  tiles_.clear();
+  std::fill(directory_.begin(), directory_.end(), nullptr);
+  saturated_ = false;
+}
+
+}  // namespace parley
