@@ -11,8 +11,6 @@ One shape a line, lengths in metres, x to the right and y up from the lower left
     solid X1 Y1 X2 Y2               a solid rectangle by two corners
     pillar X Y D                    a solid disc of diameter D
     open X1 Y1 X2 Y2                a rectangle without anything solid: a door, a corridor
-    hall T X Y X Y [X Y ...]        free space of width T along a polyline
-    keep R X Y                      clutter stays this far away from the point
     clutter SEED N GAP X1 Y1 X2 Y2  N random boxes, GAP away from all else, inside the rectangle
 """
 import math
@@ -22,15 +20,16 @@ import cv2
 import numpy as np
 
 FREE, SOLID = 254, 0
+KEPT_RADIUS = 1.2  # around starts and goals, where clutter does not reach [m]
 
 
 class Drawing:
     """The picture of a world, drawn shape by shape on square pixels."""
 
     def __init__(self, text, resolution, keep=()):
-        """Draws `text` at `resolution` [m/px]; clutter stays 1.2 m away from the points `keep` [m]."""
+        """Draws `text` at `resolution` [m/px]; clutter stays away from the points `keep` [m]."""
         self.resolution = resolution
-        self.kept = [(1.2, x, y) for x, y in keep]
+        self.kept = keep
         self.image = None
         for line in text.splitlines():
             words = line.split('#')[0].split()
@@ -71,24 +70,17 @@ class Drawing:
         window, mask = self.rectangle(*rectangle)
         self.image[window][mask] = value
 
-    def stroke(self, thickness, points, value):
-        """Draws a polyline [m] with square ends."""
+    def wall(self, thickness, *points):
         pairs = list(zip(points[0::2], points[1::2]))
         for (x1, y1), (x2, y2) in zip(pairs, pairs[1:]):
             length = math.hypot(x2 - x1, y2 - y1) + thickness
-            self.paint(value, (x1 + x2) / 2, (y1 + y2) / 2, length, thickness, math.atan2(y2 - y1, x2 - x1))
-
-    def wall(self, thickness, *points):
-        self.stroke(thickness, points, SOLID)
+            self.paint(SOLID, (x1 + x2) / 2, (y1 + y2) / 2, length, thickness, math.atan2(y2 - y1, x2 - x1))
 
     def arc(self, thickness, x, y, radius, start, end):
         steps = max(1, math.ceil(abs(end - start) / 4.0))
         angles = (math.radians(start + (end - start) * step / steps) for step in range(steps + 1))
         points = [(x + radius * math.cos(angle), y + radius * math.sin(angle)) for angle in angles]
-        self.stroke(thickness, [value for point in points for value in point], SOLID)
-
-    def hall(self, thickness, *points):
-        self.stroke(thickness, points, FREE)
+        self.wall(thickness, *(value for point in points for value in point))
 
     def box(self, x, y, width, height, angle=0.0):
         self.paint(SOLID, x, y, width, height, math.radians(angle))
@@ -103,11 +95,8 @@ class Drawing:
         window = self.within(x, y, diameter / 2)
         self.image[window][np.hypot(self.x[window] - x, self.y[window] - y) < diameter / 2 - 1e-6] = SOLID
 
-    def keep(self, radius, x, y):
-        self.kept.append((radius, x, y))
-
     def clutter(self, seed, count, gap, x1, y1, x2, y2):
-        """Places up to `count` random boxes and pillars; what does not fit after 60 tries each is left out."""
+        """Places up to `count` random boxes and partitions; what does not fit after 60 tries each is left out."""
         draw = random.Random(int(seed))
         placed, clearance = 0, self.clearance()
         for _ in range(int(count) * 60):
@@ -129,7 +118,7 @@ class Drawing:
         """Distance [m] from each pixel to the nearest solid one, the edge of the world or a kept place."""
         free = np.pad((self.image == FREE).astype(np.uint8), 1)
         distance = cv2.distanceTransform(free, cv2.DIST_L2, cv2.DIST_MASK_PRECISE)[1:-1, 1:-1] * self.resolution
-        for radius, x, y in self.kept:
-            window = self.within(x, y, radius)
-            distance[window][np.hypot(self.x[window] - x, self.y[window] - y) < radius] = 0.0
+        for x, y in self.kept:
+            window = self.within(x, y, KEPT_RADIUS)
+            distance[window][np.hypot(self.x[window] - x, self.y[window] - y) < KEPT_RADIUS] = 0.0
         return distance

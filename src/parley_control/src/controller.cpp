@@ -55,7 +55,7 @@ Controller::Controller(const ControlOptions& options, const Footprint& footprint
 void Controller::reset() {
   last_now_.reset();
   last_command_ = {};
-  T_odom_base_.reset();
+  present_.reset();
   resting_ = false;
   blocked_until_.reset();
 }
@@ -80,18 +80,24 @@ double Controller::advanceClock(const ControlRequest& request) {
   return dt;
 }
 
+/// Where the robot is now: by a new reading, and while none comes by what it was told to do since.
 void Controller::locate(const ControlRequest& request, bool odometry_is_good, double dt) {
-  if (odometry_is_good && request.odometry != nullptr && std::isfinite(request.now)) {
-    const Odometry& o = *request.odometry;
-    T_odom_base_ = integrateTwist(o.pose, o.twist.speed, o.twist.turn_rate, request.now - o.stamp);
-  } else if (T_odom_base_) {
-    T_odom_base_ = integrateTwist(*T_odom_base_, last_command_.speed, last_command_.turn_rate, dt);
+  if (odometry_is_good && std::isfinite(request.now) && (!present_ || request.odometry->stamp != last_odometry_stamp_)) {
+    present_ = *request.odometry;
+    last_odometry_stamp_ = present_->stamp;
+    dt = request.now - present_->stamp;
+  } else if (present_) {
+    present_->twist = last_command_;
+  } else {
+    return;
   }
+  present_->pose = integrateTwist(present_->pose, present_->twist.speed, present_->twist.turn_rate, dt);
+  present_->stamp = request.now;
 }
 
 ControlResult Controller::follow(const ControlRequest& request, double dt) {
   const SampledTrajectory& trajectory = *request.trajectory;
-  Tracking tracking = track(trajectory, *T_odom_base_, request.now, options_, limits_);
+  Tracking tracking = track(trajectory, present_->pose, request.now, options_, limits_);
   if (!isFinite(tracking)) return brake({DriveState::kStopped, "trajectory is not finite"}, nullptr, dt);
   resting_ = rests(tracking.reference_stands, tracking.error);
   if (resting_) tracking.desired = tracking.intended = {};
@@ -130,9 +136,9 @@ bool Controller::lastMomentStop(const ControlRequest& request, const Twist2& int
 /// corner in one case and hit it in the other.
 bool Controller::wouldTouch(const ControlRequest& request, const Twist2& intended) const {
   const double margin = options_.stop_margin + (blocked_until_ ? options_.stop_hysteresis : 0.0);
-  const double path_time = pathTime(*request.trajectory, *T_odom_base_, request.now);
-  const Pose2 T_base_scan = T_odom_base_->inverse() * request.T_odom_scan;
-  const Motion motion{request.odometry->twist, last_command_, intended};
+  const double path_time = pathTime(*request.trajectory, present_->pose, request.now);
+  const Pose2 T_base_scan = present_->pose.inverse() * request.T_odom_scan;
+  const Motion motion{present_->twist, last_command_, intended};
   for (const double reaction_time : {options_.reaction_time, 0.0}) {
     const Braking braking(brakingLimits(limits_, options_), *request.trajectory, path_time + reaction_time);
     const std::vector<Pose2> sweep = brakingSweep(motion, braking, reaction_time, options_, limits_);
@@ -144,8 +150,8 @@ bool Controller::wouldTouch(const ControlRequest& request, const Twist2& intende
 ControlResult Controller::brake(const Status<DriveState>& why, const SampledTrajectory* path, double dt) {
   resting_ = false;
   Braking braking(limits_);
-  if (path != nullptr && !path->empty() && T_odom_base_ && last_now_) {
-    braking = Braking(limits_, *path, pathTime(*path, *T_odom_base_, *last_now_));
+  if (path != nullptr && !path->empty() && present_ && last_now_) {
+    braking = Braking(limits_, *path, pathTime(*path, present_->pose, *last_now_));
   }
   const Twist2 twist = braking.next(last_command_, dt);
   return send(isFinite(twist) ? twist : Braking(limits_).next(last_command_, dt), why);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <limits>
 #include <random>
 
@@ -111,7 +112,7 @@ TEST(CloudMessage, UnderstandsTheTimesThatDriversGive) {
        {Case{"t", sensor_msgs::PointField::UINT32, 5e7}, Case{"offset_time", sensor_msgs::PointField::UINT32, 5e7},
         Case{"timestamp", sensor_msgs::PointField::FLOAT64, 1.7e9 + 0.05},
         Case{"timestamp", sensor_msgs::PointField::FLOAT64, (1.7e9 + 0.05) * 1e9}}) {
-    sensor_msgs::PointCloud2 message = toMessage({1.7e9, {{1.0F, 2.0F, 3.0F, 0.0F}}}, "lidar");
+    sensor_msgs::PointCloud2 message = toMessage(LidarCloud{1.7e9, {{1.0F, 2.0F, 3.0F, 0.0F}}}, "lidar");
     message.fields[3].name = c.name;
     message.fields[3].datatype = c.type;
     message.fields[3].offset = 16;

@@ -18,7 +18,8 @@ class DistanceField {
 
   DistanceField() = default;
   /// `marked`: frame.width * frame.height, non-zero where there is something.
-  DistanceField(const GridFrame& frame, const std::vector<unsigned char>& marked);
+  /// `rough`: within 5 % instead of 2 %, in half the time.
+  DistanceField(const GridFrame& frame, const std::vector<unsigned char>& marked, bool rough = false);
 
   bool empty() const { return distances_.empty(); }
   const GridFrame& frame() const { return frame_; }

@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kMostPasses = 8;        // simulations until the margins must be kept
 constexpr double kBackOff = 0.03;     // [m] stop this much before what is too near
+constexpr double kTrackBackOff = 0.2;  // [m] as above for what moves: it comes nearer while the robot brakes
 constexpr double kSlack = 0.005;      // [m] by which a start that is too near may come nearer: lookups are no better
 constexpr double kLastMargin = 0.01;  // [m]
 constexpr double kSpeedSlack = 0.02;  // [m/s]
@@ -68,7 +69,8 @@ DriveGenerator::Correction DriveGenerator::corrected(const PathDrive& drive, con
     const bool strays = probe_.clearance(scene.surroundings.unseen(), point.pose) < floor.unseen;
     const bool meets = trackClearance(point, scene, drive.points.front().time) < floor.tracks;
     if (hits || strays || meets) {
-      correction.profile.stopAt(std::min(s - kBackOff, profile.stop() - kBackOff));
+      const double back_off = meets ? kTrackBackOff : kBackOff;
+      correction.profile.stopAt(std::min(s, profile.stop()) - back_off);
       correction.end = hits ? DriveEnd::kObstacle : (strays ? DriveEnd::kUnseen : DriveEnd::kTrack);
       correction.changed = true;
       break;
@@ -117,16 +119,9 @@ bool DriveGenerator::isFree(const std::vector<TrajectoryPoint>& points, const Dr
 
 std::vector<TrajectoryPoint> DriveGenerator::turn(const TrajectoryPoint& start, double yaw, const DriveScene& scene,
                                                   const Margins& margins) const {
-  std::vector<TrajectoryPoint> shorter = turnOnSpot(start, yaw, limits_, time_step_);
-  if (isFree(shorter, scene, margins)) return shorter;
-  // The longer way round, in two halves that are each less than pi.
-  const double turn = angleBetween(start.pose.yaw, yaw);
-  const double other = turn > 0.0 ? turn - 2.0 * kPi : turn + 2.0 * kPi;
-  std::vector<TrajectoryPoint> longer = turnOnSpot(start, wrapAngle(start.pose.yaw + 0.5 * other), limits_, time_step_);
-  const std::vector<TrajectoryPoint> rest = turnOnSpot(longer.back(), yaw, limits_, time_step_);
-  longer.insert(longer.end(), rest.begin() + 1, rest.end());
-  if (isFree(longer, scene, margins)) return longer;
-  return {};
+  std::vector<TrajectoryPoint> points = turnOnSpot(start, yaw, limits_, time_step_);
+  // The longer way round would need no less room: over half a turn the corners sweep all of the circle.
+  return isFree(points, scene, margins) ? points : std::vector<TrajectoryPoint>{};
 }
 
 }  // namespace parley

@@ -38,7 +38,7 @@ class DriveGenerator {
   GeneratedDrive along(const ReferencePath& path, const TrajectoryPoint& start, bool reverse, const DriveScene& scene,
                        const Margins& margins, const std::vector<double>& sight_bounds) const;
 
-  /// Turning on the spot to `yaw`, by the shorter way if there is room, else by the longer one; empty if neither.
+  /// Turning on the spot to `yaw`, by the shorter way; empty if there is no room.
   std::vector<TrajectoryPoint> turn(const TrajectoryPoint& start, double yaw, const DriveScene& scene,
                                     const Margins& margins) const;
 

@@ -4,23 +4,20 @@
 #include <algorithm>
 #include <cmath>
 
-#include "parley_geometry/polygon.h"
+#include "local_goal.h"
 
 namespace parley {
 
 namespace {
 
-constexpr double kStandingSpeed = 0.02;     // [m/s] [rad/s] slower counts as standing
-constexpr double kSlowSpeed = 0.3;          // [m/s] slower than this, a turn on the spot may be called for
-constexpr double kWindowRim = 0.4;          // [m] the local goal stays this far inside the window
-constexpr double kDirectionReach = 0.5;     // [m] a path's first direction is that to a point so far along it
-constexpr double kLastStretch = 0.8;        // [s] so little before it ends at the goal, a trajectory is left alone
-constexpr double kUsefulAdvance = 0.25;     // [m] a drive that gets less far is worth looking for another
-constexpr double kTurnWhileMoving = 1.9;    // [rad] off the heading, a moving robot stops first
-
-MotionLimits shareOf(const MotionLimits& limits, double share) {
-  return {limits.speed, limits.turn_rate * share, limits.acceleration * share, limits.turn_acceleration * share};
-}
+constexpr double kWindowRim = 0.4;        // [m] the local goal stays this far inside the window
+constexpr double kLastStretch = 0.8;      // [s] so little before it ends at the goal, a trajectory is left alone
+constexpr double kSqueezePeriod = 0.5;    // [s] the search for narrow places is the dearest step
+constexpr double kLeastMargin = 0.015;    // [m] to single returns, whose noise this is about
+constexpr double kSlowSpeed = 0.3;        // [m/s]
+constexpr double kWiderPush = 0.25;       // [m] more, where the usual path led nowhere
+constexpr double kBlockedReach = 1.5;     // [m] moving things nearer than this are what blocks
+constexpr double kLongestForecast = 0.5;  // [s] of the measured state
 
 SightLawOptions sightLaw(const PlannerOptions& options, const Footprint& footprint) {
   SightLawOptions law;
@@ -33,14 +30,8 @@ SightLawOptions sightLaw(const PlannerOptions& options, const Footprint& footpri
   return law;
 }
 
-double firstDirection(const Path& path) {
-  const Path fine = resampled(path, kDirectionReach);
-  const Eigen::Vector2d step = fine[1] - fine[0];
-  return std::atan2(step.y(), step.x());
-}
-
-bool stands(const Twist2& twist) {
-  return std::abs(twist.speed) < kStandingSpeed && std::abs(twist.turn_rate) < kStandingSpeed;
+bool isUseful(const std::optional<Proposal>& proposal) {
+  return proposal && (proposal->advance > kUsefulAdvance || proposal->end == DriveEnd::kPathEnd);
 }
 
 }  // namespace
@@ -49,15 +40,17 @@ Planner::Pipeline::Pipeline(const PlannerOptions& options, const Footprint& foot
     : options_(options),
       footprint_(footprint),
       limits_(limits),
-      generator_(footprint, shareOf(limits, options.limit_share), options.time_step),
+      manoeuvres_(options, footprint, limits),
       validator_(footprint, limits, options.prediction_time, options.track_margin),
-      sight_law_(sightLaw(options, footprint), limits) {}
+      sight_law_(sightLaw(options, footprint), limits),
+      watch_(options.stuck_time) {}
 
 void Planner::Pipeline::reset() {
   surroundings_ = {};
   sight_law_.reset();
+  watch_.reset();
   path_.clear();
-  planned_at_ = busy_until_ = -1e9;
+  planned_at_ = busy_until_ = squeezed_at_ = -1e9;
   arrived_ = false;
 }
 
@@ -66,14 +59,18 @@ PlanResult Planner::Pipeline::plan(const PlanRequest& request) {
   if (request.now < planned_at_) reset();  // time went back
   const TrajectoryPoint start = startState(request);
   validator_.observe({request.map, request.scan, request.T_odom_scan, request.tracks});
-  const Margins least{0.0, 0.3 * options_.margin_per_speed, options_.creep_speed};
+  // What is driven already may come nearer than what is newly committed: noise alone must not stop the robot.
+  const Margins least{kLeastMargin, 0.3 * options_.margin_per_speed, options_.creep_speed};
   const bool valid = validator_.checkRest(request.committed, start.time, least).good();
 
   if ((request.goal - goal_).norm() > 0.05) arrived_ = false;
   goal_ = request.goal;
-  if (arrived(request)) return keep(PlanCode::kArrived, "at the goal");
+  if (arrived(request)) {
+    watch_.reset();
+    return keep(PlanCode::kArrived, "at the goal");
+  }
   if (!request.route.exists()) {
-    return valid ? keep(PlanCode::kNoRoute, "no route") : brake(request, start, PlanCode::kNoRoute, "no route");
+    return valid ? keep(PlanCode::kNoRoute, "no route") : brake(start, PlanCode::kNoRoute, "no route");
   }
   if (valid && (mayKeep(request) || endsAtGoal(request))) return keep(PlanCode::kDriving, "");
   return replan(request, start, valid);
@@ -87,7 +84,7 @@ bool Planner::Pipeline::usable(const PlanRequest& request) const {
 
 TrajectoryPoint Planner::Pipeline::startState(const PlanRequest& request) const {
   const Odometry& odometry = request.odometry;
-  const double ahead = std::clamp(request.start_time - odometry.stamp, 0.0, 0.5);
+  const double ahead = std::clamp(request.start_time - odometry.stamp, 0.0, kLongestForecast);
   const TrajectoryPoint measured{request.start_time,
                                  integrateTwist(odometry.pose, odometry.twist.speed, odometry.twist.turn_rate, ahead),
                                  odometry.twist};
@@ -105,46 +102,10 @@ bool Planner::Pipeline::arrived(const PlanRequest& request) {
   const double distance = (request.odometry.pose.position() - request.goal).norm();
   const bool standing = stands(request.odometry.twist) &&
                         (request.committed.empty() || stands(request.committed.at(request.start_time).twist));
-  if (arrived_) {
-    arrived_ = distance < 0.9 * request.goal_tolerance;
-  } else {
-    arrived_ = standing && distance < 0.5 * request.goal_tolerance;
-  }
+  // Having tried for long, anywhere within the tolerance will do.
+  const double enough = (arrived_ || watch_.level() > 0 ? 0.9 : 0.5) * request.goal_tolerance;
+  arrived_ = distance < enough && (arrived_ || standing);
   return arrived_;
-}
-
-Eigen::Vector2d Planner::Pipeline::localGoal(const PlanRequest& request) const {
-  // The nearest point of the route first, then on along it.
-  const std::vector<Eigen::Vector2d>& points = request.route.points;
-  const Eigen::Vector2d here = request.odometry.pose.position();
-  std::size_t nearest = 0;
-  double best = 1e30, fraction = 0.0;
-  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-    const Eigen::Vector2d step = points[i + 1] - points[i];
-    const double f = std::clamp((here - points[i]).dot(step) / std::max(1e-9, step.squaredNorm()), 0.0, 1.0);
-    const double distance = (points[i] + f * step - here).norm();
-    if (distance < best) {
-      best = distance;
-      nearest = i;
-      fraction = f;
-    }
-  }
-  const GridFrame& frame = request.map.frame;
-  const Eigen::Vector2d low = frame.origin + Eigen::Vector2d::Constant(kWindowRim);
-  const Eigen::Vector2d high = frame.origin + frame.size() - Eigen::Vector2d::Constant(kWindowRim);
-  Eigen::Vector2d goal = points[nearest] + fraction * (points[nearest + 1] - points[nearest]);
-  double left = options_.look_ahead;
-  for (std::size_t i = nearest; i + 1 < points.size(); ++i) {
-    const Eigen::Vector2d step = points[i + 1] - goal;
-    const int pieces = std::max(1, static_cast<int>(std::ceil(step.norm() / 0.1)));
-    for (int k = 0; k < pieces; ++k) {
-      const Eigen::Vector2d next = goal + step / pieces;
-      left -= step.norm() / pieces;
-      if (left < 0.0 || (next.array() < low.array()).any() || (next.array() > high.array()).any()) return goal;
-      goal = next;
-    }
-  }
-  return goal;
 }
 
 bool Planner::Pipeline::mayKeep(const PlanRequest& request) const {
@@ -160,135 +121,81 @@ bool Planner::Pipeline::endsAtGoal(const PlanRequest& request) const {
   return left > -kLastStretch && left < kLastStretch && miss < 0.3 * request.goal_tolerance;
 }
 
-Margins Planner::Pipeline::margins() const {
-  return {options_.margin_creeping, options_.margin_per_speed, options_.creep_speed};
+void Planner::Pipeline::look(const PlanRequest& request, const TrajectoryPoint& start) {
+  surroundings_ = Surroundings(request.map, request.scan, request.T_odom_scan, request.tracks);
+  speed_bound_ = limits_.speed;
+  if (options_.sight_law) {
+    sight_law_.observe(surroundings_, request.scan, request.T_odom_scan, request.tracks, start.pose, request.now);
+    speed_bound_ = std::min(limits_.speed, sight_law_.speedFor(sight_law_.gapAt(start.pose.position())));
+  }
+  local_goal_ =
+      localGoal(request.route, request.odometry.pose.position(), options_.look_ahead, request.map.frame, kWindowRim);
+  watch_.update(request.odometry.pose.position(), request.now);
 }
 
 PlanResult Planner::Pipeline::replan(const PlanRequest& request, const TrajectoryPoint& start, bool committed_valid) {
   planned_at_ = request.now;
-  surroundings_ = Surroundings(request.map, request.scan, request.T_odom_scan, request.tracks);
-  if (options_.sight_law) {
-    sight_law_.observe(surroundings_, request.scan, request.T_odom_scan, request.tracks, start.pose, request.now);
-  }
-  local_goal_ = localGoal(request);
+  look(request, start);
+  const std::optional<Proposal> proposal = bestProposal(request, start);
+  if (proposal) return commit(*proposal);
+  const std::string why = somethingMoved(request) ? "blocked by something that moved" : "blocked";
+  if (committed_valid) return keep(stands(start.twist) ? PlanCode::kBlocked : PlanCode::kDriving, why);
+  return brake(start, PlanCode::kBlocked, why);
+}
+
+std::optional<Proposal> Planner::Pipeline::bestProposal(const PlanRequest& request, const TrajectoryPoint& start) {
+  const bool stuck = watch_.level() > 0;
+  const Margins margins{stuck ? options_.margin_tight : options_.margin_creeping, options_.margin_per_speed,
+                        options_.creep_speed};
+  const double inscribed = footprint_.inscribedRadius();
+  std::optional<Proposal> best;
+  const auto consider = [&best](std::optional<Proposal> other) {
+    if (other && (!best || other->advance > best->advance + 0.5 * kUsefulAdvance)) best = std::move(other);
+  };
+  const Attempt usual{inscribed + 0.01, options_.comfort_distance, options_.push_distance, margins, false};
+  consider(attempt(usual, request, start));
+  if (isUseful(best) || std::abs(start.twist.speed) > kSlowSpeed) return best;
+  // Wider round corners; where any heading fits, none is in the way.
+  const double round = footprint_.circumscribedRadius() + margins.creeping;
+  const Attempt wide{round, options_.comfort_distance + kWiderPush, options_.push_distance + kWiderPush, margins, false};
+  consider(attempt(wide, request, start));
+  if (isUseful(best) || !stands(start.twist) || request.now - squeezed_at_ < kSqueezePeriod) return best;
+  squeezed_at_ = request.now;
+  Attempt squeeze = usual;
+  squeeze.squeeze = true;
+  consider(attempt(squeeze, request, start));
+  return best;
+}
+
+std::optional<Proposal> Planner::Pipeline::attempt(const Attempt& how, const PlanRequest& request,
+                                                   const TrajectoryPoint& start) const {
   PathSearchOptions search;
-  search.least_clearance = footprint_.inscribedRadius() + options_.margin_tight;
-  search.comfort_distance = options_.comfort_distance;
+  search.least_clearance = how.least_clearance;
+  search.comfort_distance = how.comfort_distance;
   search.clearance_weight = options_.clearance_weight;
   search.unknown_cost = options_.unknown_cost;
   search.keep_discount = options_.keep_path_discount;
   const FoundPath found = searchPath(surroundings_, start.pose.position(), local_goal_, path_, search);
-  const auto fail = [&](PlanCode code, const std::string& why) {
-    return committed_valid ? keep(code, why) : brake(request, start, code, why);
-  };
-  if (found.points.empty()) return fail(PlanCode::kNoPath, "no path to the route");
-
-  const Path path = straightened(surroundings_, found.points, options_.comfort_distance);
+  if (found.points.empty()) return std::nullopt;
+  const Path path = straightened(surroundings_, found.points, how.comfort_distance);
   const DriveScene scene{surroundings_, request.tracks, options_.prediction_time, options_.track_margin};
-  const std::optional<Proposal> proposal = propose(path, start, scene, margins());
-  if (!proposal) return fail(PlanCode::kBlocked, "blocked");
-  const Margins commit{0.3 * options_.margin_creeping, 0.5 * options_.margin_per_speed, options_.creep_speed};
-  const Verdict verdict = validator_.check(proposal->trajectory, start, commit);
-  if (!verdict.good()) return fail(PlanCode::kBlocked, "plan refused, flaw " + std::to_string(static_cast<int>(verdict.flaw)));
-  path_ = proposal->path.points();
-  busy_until_ = proposal->busy_until;
-  PlanResult result;
-  result.status = PlanCode::kDriving;
-  result.trajectory = proposal->trajectory;
-  result.local_goal = local_goal_;
-  result.path = path_;
-  result.speed_bound = options_.sight_law ? std::min(limits_.speed, sight_law_.speedFor(sight_law_.gapAt(start.pose.position()))) : limits_.speed;
-  if (getenv("DBG")) result.status.text = "bound " + std::to_string(result.speed_bound) + " end " + std::to_string(static_cast<int>(proposal->end)) + " adv " + std::to_string(proposal->advance) + " of " + std::to_string(proposal->path.length());
+  const ManoeuvreTask task{path, start, scene, how.margins, how.push_distance, options_.sight_law ? &sight_law_ : nullptr};
+  std::optional<Proposal> proposal = how.squeeze ? manoeuvres_.squeeze(task) : manoeuvres_.propose(task);
+  if (!proposal) return std::nullopt;
+  const Margins judged{std::max(kLeastMargin + 0.005, 0.4 * how.margins.creeping), 0.5 * how.margins.per_speed, how.margins.creep_speed};
+  return validator_.check(proposal->trajectory, start, judged).good() ? proposal : std::nullopt;
+}
+
+PlanResult Planner::Pipeline::commit(const Proposal& proposal) {
+  path_ = proposal.path;
+  busy_until_ = proposal.busy_until;
+  PlanResult result = keep(PlanCode::kDriving, "");
+  result.keep_committed = false;
+  result.trajectory = proposal.trajectory;
   return result;
 }
 
-std::optional<Planner::Pipeline::Proposal> Planner::Pipeline::propose(const Path& path, const TrajectoryPoint& start,
-                                                                      const DriveScene& scene, const Margins& margins) {
-  const double off = std::abs(angleBetween(start.pose.yaw, firstDirection(path)));
-  const double speed = start.twist.speed;
-  if (speed < -kStandingSpeed) return off > 0.5 * kPi ? backOut(path, start, scene, margins) : std::nullopt;
-  if (speed > kSlowSpeed) return off < kTurnWhileMoving ? driveOn(path, start, false, scene, margins) : std::nullopt;
-  std::optional<Proposal> best;
-  if (off < options_.turn_on_spot) {
-    best = driveOn(path, start, false, scene, margins);
-    if (best && (best->advance > kUsefulAdvance || best->end == DriveEnd::kPathEnd)) return best;
-  }
-  if (!stands(start.twist)) return best;
-  const auto consider = [&best](std::optional<Proposal> other) {
-    if (other && (!best || other->advance > best->advance + kUsefulAdvance)) best = std::move(other);
-  };
-  consider(turnAndDrive(path, start, scene, margins));
-  if (best && best->advance > kUsefulAdvance) return best;
-  if (off > 0.5 * kPi) consider(backOut(path, start, scene, margins));
-  return best;
-}
-
-std::optional<Planner::Pipeline::Proposal> Planner::Pipeline::driveOn(const Path& path, const TrajectoryPoint& start,
-                                                                      bool reverse, const DriveScene& scene,
-                                                                      const Margins& margins) {
-  SmoothingOptions smoothing;
-  smoothing.push_distance = options_.push_distance;
-  smoothing.twisting_weight = options_.twisting_weight;
-  smoothing.bending_weight = options_.bending_weight;
-  smoothing.iterations = options_.smoothing_iterations;
-  const PathStart entry{{start.pose.x, start.pose.y, wrapAngle(start.pose.yaw + (reverse ? kPi : 0.0))},
-                        std::abs(start.twist.speed), start.twist.turn_rate};
-  Proposal proposal;
-  proposal.path = smoothed(path, entry, scene.surroundings.obstacles(), smoothing);
-  const double start_s = proposal.path.project(start.pose.position(), 0.0, 1.0);
-  const bool bounded = options_.sight_law && !reverse;
-  const std::vector<double> sight =
-      bounded ? sight_law_.bounds(proposal.path, start_s, start.twist.speed) : std::vector<double>{};
-  GeneratedDrive drive = generator_.along(proposal.path, start, reverse, scene, margins, sight);
-  if (drive.end == DriveEnd::kInfeasible) return std::nullopt;
-  proposal.end = drive.end;
-  proposal.advance = drive.advance;
-  proposal.trajectory = SampledTrajectory(std::move(drive.drive.points));
-  return proposal;
-}
-
-std::optional<Planner::Pipeline::Proposal> Planner::Pipeline::turnAndDrive(const Path& path, const TrajectoryPoint& start,
-                                                                           const DriveScene& scene,
-                                                                           const Margins& margins) {
-  std::vector<TrajectoryPoint> points = generator_.turn(start, firstDirection(path), scene, margins);
-  if (points.empty()) return std::nullopt;
-  const double turned_at = points.back().time;
-  std::optional<Proposal> rest = driveOn(path, points.back(), false, scene, margins);
-  if (rest) {
-    const std::vector<TrajectoryPoint>& driven = rest->trajectory.points();
-    points.insert(points.end(), driven.begin() + 1, driven.end());
-  } else {
-    rest.emplace();
-    rest->path = ReferencePath(path);
-  }
-  rest->trajectory = SampledTrajectory(std::move(points));
-  rest->busy_until = turned_at;
-  return rest;
-}
-
-std::optional<Planner::Pipeline::Proposal> Planner::Pipeline::backOut(const Path& path, const TrajectoryPoint& start,
-                                                                      const DriveScene& scene, const Margins& margins) {
-  // Back to the first place where there is room to turn.
-  const double room = footprint_.circumscribedRadius() + margins.creeping + 0.02;
-  Path back = resampled(path, 0.1);
-  for (std::size_t i = 3; i < back.size(); ++i) {
-    if (scene.surroundings.obstacles().at(back[i]) < room) continue;
-    back.resize(std::min(back.size(), i + 2));
-    break;
-  }
-  std::optional<Proposal> proposal = driveOn(back, start, true, scene, margins);
-  if (proposal) proposal->busy_until = proposal->trajectory.endTime();
-  return proposal;
-}
-
-PlanResult Planner::Pipeline::brake(const PlanRequest& request, const TrajectoryPoint& start, PlanCode code,
-                                    const std::string& why) {
-  if (stands(start.twist) && request.committed.empty()) {
-    PlanResult result = keep(code, why);
-    result.keep_committed = false;
-    result.trajectory = SampledTrajectory::standing(start.pose, start.time);
-    return result;
-  }
+PlanResult Planner::Pipeline::brake(const TrajectoryPoint& start, PlanCode code, const std::string& why) {
   busy_until_ = -1e9;
   PlanResult result = keep(code, why);
   result.keep_committed = false;
@@ -302,8 +209,15 @@ PlanResult Planner::Pipeline::keep(PlanCode code, const std::string& why) const 
   result.keep_committed = true;
   result.local_goal = local_goal_;
   result.path = path_;
-  result.speed_bound = limits_.speed;
+  result.speed_bound = speed_bound_;
   return result;
+}
+
+bool Planner::Pipeline::somethingMoved(const PlanRequest& request) const {
+  const Eigen::Vector2d here = request.odometry.pose.position();
+  return std::any_of(request.tracks.begin(), request.tracks.end(), [&](const TrackedObject& track) {
+    return (track.position - here).norm() < kBlockedReach + track.radius;
+  });
 }
 
 }  // namespace parley

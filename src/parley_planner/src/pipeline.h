@@ -4,8 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "drive_generator.h"
+#include "manoeuvres.h"
 #include "parley_planner/planner.h"
+#include "progress_watch.h"
 #include "sight_law.h"
 #include "trajectory_validator.h"
 
@@ -20,47 +21,45 @@ class Planner::Pipeline {
   void reset();
 
  private:
-  /// A way to drive on: trajectory, the path it follows and how far it gets.
-  struct Proposal {
-    SampledTrajectory trajectory;
-    ReferencePath path;
-    DriveEnd end = DriveEnd::kInfeasible;
-    double advance = 0.0;       // [m] along the path
-    double busy_until = 0.0;    // [s] until then the manoeuvre is not to be interrupted
+  /// A search for a way: how much room the path must have, and how far obstacles push it.
+  struct Attempt {
+    double least_clearance;   // [m]
+    double comfort_distance;  // [m]
+    double push_distance;     // [m]
+    Margins margins;
+    bool squeeze;
   };
 
   bool usable(const PlanRequest& request) const;
   TrajectoryPoint startState(const PlanRequest& request) const;
   bool arrived(const PlanRequest& request);
-  Eigen::Vector2d localGoal(const PlanRequest& request) const;
   bool mayKeep(const PlanRequest& request) const;
   bool endsAtGoal(const PlanRequest& request) const;
+  void look(const PlanRequest& request, const TrajectoryPoint& start);
   PlanResult replan(const PlanRequest& request, const TrajectoryPoint& start, bool committed_valid);
-  std::optional<Proposal> propose(const Path& path, const TrajectoryPoint& start, const DriveScene& scene,
-                                  const Margins& margins);
-  std::optional<Proposal> driveOn(const Path& path, const TrajectoryPoint& start, bool reverse, const DriveScene& scene,
-                                  const Margins& margins);
-  std::optional<Proposal> turnAndDrive(const Path& path, const TrajectoryPoint& start, const DriveScene& scene,
-                                       const Margins& margins);
-  std::optional<Proposal> backOut(const Path& path, const TrajectoryPoint& start, const DriveScene& scene,
-                                  const Margins& margins);
-  PlanResult brake(const PlanRequest& request, const TrajectoryPoint& start, PlanCode code, const std::string& why);
+  std::optional<Proposal> bestProposal(const PlanRequest& request, const TrajectoryPoint& start);
+  std::optional<Proposal> attempt(const Attempt& how, const PlanRequest& request, const TrajectoryPoint& start) const;
+  PlanResult commit(const Proposal& proposal);
+  PlanResult brake(const TrajectoryPoint& start, PlanCode code, const std::string& why);
   PlanResult keep(PlanCode code, const std::string& why) const;
-  Margins margins() const;
+  bool somethingMoved(const PlanRequest& request) const;
 
   PlannerOptions options_;
   Footprint footprint_;
   MotionLimits limits_;
-  DriveGenerator generator_;
+  Manoeuvres manoeuvres_;
   TrajectoryValidator validator_;
   SightLaw sight_law_;
+  ProgressWatch watch_;
 
   Surroundings surroundings_;
   Eigen::Vector2d goal_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d local_goal_ = Eigen::Vector2d::Zero();
   Path path_;                  // that the last commitment follows
+  double speed_bound_ = 0.0;   // [m/s] by sight, where the robot is
   double planned_at_ = -1e9;   // [s]
   double busy_until_ = -1e9;   // [s]
+  double squeezed_at_ = -1e9;  // [s]
   bool arrived_ = false;
 };
 

@@ -222,7 +222,6 @@ RunResult drive(const World& world, const RunSettings& settings) {
       const double clearance = world.clearance(robotFootprint(), state.pose);
       result.least_clearance = std::min(result.least_clearance, clearance);
       const bool touches = clearance <= 0.0;
-      if (getenv("DBG") && clearance < 0.02) printf("NEAR t %.2f clear %.3f pose %.3f %.3f %.3f v %.2f w %.2f %s\n", time, clearance, state.pose.x, state.pose.y, state.pose.yaw, state.twist.speed, state.twist.turn_rate, result.log.back().c_str());
       result.collisions += touches && !touching;
       touching = touches;
     }

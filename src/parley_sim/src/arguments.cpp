@@ -41,9 +41,9 @@ Arguments parseArguments(const std::vector<std::string>& words) {
   Arguments arguments;
   std::string seed;
   const std::map<std::string, std::string*> texts{
-      {"--seed", &seed},          {"--variant", &arguments.variant}, {"--config", &arguments.config},
-      {"--json", &arguments.json}, {"--trace", &arguments.trace},     {"--picture", &arguments.picture},
-      {"--bag", &arguments.bag},  {"--bag-robot", &arguments.bag_robot}};
+      {"--seed", &seed},           {"--variant", &arguments.variant},    {"--config", &arguments.config},
+      {"--json", &arguments.json}, {"--trace", &arguments.trace},        {"--picture", &arguments.picture},
+      {"--bag", &arguments.bag},   {"--bag-robot", &arguments.bag_robot}};
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
     const auto text = texts.find(word);

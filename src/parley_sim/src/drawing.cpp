@@ -11,11 +11,11 @@
 namespace parley::sim {
 namespace {
 
-constexpr int kMapSize = 1100;    // [px] longer side of the map
-constexpr int kLegendWidth = 330; // [px]
-constexpr int kTitleHeight = 44;  // [px]
-constexpr int kMargin = 16;       // [px]
-constexpr int kShift = 4;         // bits of a pixel's fraction in OpenCV's coordinates
+constexpr int kMapSize = 1100;     // [px] longer side of the map
+constexpr int kLegendWidth = 330;  // [px]
+constexpr int kTitleHeight = 44;   // [px]
+constexpr int kMargin = 16;        // [px]
+constexpr int kShift = 4;          // bits of a pixel's fraction in OpenCV's coordinates
 const cv::Scalar kPaper(255, 255, 255), kWall(70, 64, 60), kInk(50, 45, 40), kFaint(150, 145, 140), kRed(40, 30, 215);
 
 /// Ten colours that are easy to tell apart, then hues a golden angle apart.
@@ -45,7 +45,8 @@ cv::Mat mapImage(const World& world, double scale) {
   for (int y = 0; y < frame.height; ++y) {
     for (int x = 0; x < frame.width; ++x) {
       const cv::Scalar& color = world.isSolid(Eigen::Vector2i(x, y)) ? kWall : kPaper;
-      cells.at<cv::Vec3b>(frame.height - 1 - y, x) = cv::Vec3b(static_cast<uchar>(color[0]), static_cast<uchar>(color[1]), static_cast<uchar>(color[2]));
+      cells.at<cv::Vec3b>(frame.height - 1 - y, x) =
+          cv::Vec3b(static_cast<uchar>(color[0]), static_cast<uchar>(color[1]), static_cast<uchar>(color[2]));
     }
   }
   cv::Mat map;

@@ -25,7 +25,8 @@ const KindOfEvent& kindOf(const YamlSection& section) {
   const KindOfEvent* found = nullptr;
   for (const KindOfEvent& candidate : kKinds) {
     if (!section.has(candidate.key)) continue;
-    if (found != nullptr) section.fail(candidate.key, std::string("stands beside '") + found->key + "', one event has one of them");
+    if (found != nullptr)
+      section.fail(candidate.key, std::string("stands beside '") + found->key + "', one event has one of them");
     found = &candidate;
   }
   if (found == nullptr) section.fail("kill", "is missing; an event has one of kill, stall, mute, blind, join, door");

@@ -5,9 +5,7 @@
 
 namespace parley::sim {
 
-bool sameDoor(const Event& a, const Event& b) {
-  return (a.from == b.from && a.to == b.to) || (a.from == b.to && a.to == b.from);
-}
+bool sameDoor(const Event& a, const Event& b) { return (a.from == b.from && a.to == b.to) || (a.from == b.to && a.to == b.from); }
 
 void EventQueue::advance(double time, const std::function<bool(const Event&)>& happens) {
   constexpr double kSameTime = 1e-9;  // [s]

@@ -30,9 +30,8 @@ std::vector<Eigen::Vector2i> directions() {
       }
     }
   }
-  std::sort(all.begin(), all.end(), [](const Eigen::Vector2i& p, const Eigen::Vector2i& q) {
-    return p.x() != q.x() ? p.x() < q.x() : p.y() < q.y();
-  });
+  std::sort(all.begin(), all.end(),
+            [](const Eigen::Vector2i& p, const Eigen::Vector2i& q) { return p.x() != q.x() ? p.x() < q.x() : p.y() < q.y(); });
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
 }
@@ -52,8 +51,7 @@ Eigen::Vector2d LatticeSearch::pointOf(int node) const {
 }
 
 bool LatticeSearch::isFree(const Eigen::Vector2d& point) const {
-  return world_.freeRadius(point) >= radius_ ||
-         world_.distanceToSolid(point, radius_ + kRounding) >= radius_ - kRounding;
+  return world_.freeRadius(point) >= radius_ || world_.distanceToSolid(point, radius_ + kRounding) >= radius_ - kRounding;
 }
 
 bool LatticeSearch::isFree(int x, int y) {

@@ -12,7 +12,8 @@ constexpr long kSteps = 5;  // of the simulation between two points of a track
 std::string legendOf(const FleetRunner& runner, std::size_t robot) {
   const RobotRecord& record = runner.simulation().referee().records()[robot];
   const std::string name = runner.simulation().scenario().robots[robot].name;
-  return name + "  " + (record.reached ? oneDecimal(record.time) + " s, " + oneDecimal(record.length) + " m" : toString(runner.state(robot)));
+  return name + "  " +
+         (record.reached ? oneDecimal(record.time) + " s, " + oneDecimal(record.length) + " m" : toString(runner.state(robot)));
 }
 
 void drawRobots(Drawing& drawing, const FleetRunner& runner, const std::vector<std::vector<Eigen::Vector2d>>& tracks) {

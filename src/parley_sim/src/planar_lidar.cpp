@@ -70,7 +70,7 @@ RangeScan PlanarLidar::scan(double stamp, const Pose2& T_world_base, const Scene
     // one draw a beam, hit or not: what others do must not shift this robot's noise
     const double noisy = range + spec_.noise * noise_.normal();
     const bool seen = range <= spec_.range;
-    scan.ranges.push_back(!seen                ? std::numeric_limits<float>::infinity()
+    scan.ranges.push_back(!seen               ? std::numeric_limits<float>::infinity()
                           : noisy < kRangeMin ? -std::numeric_limits<float>::infinity()
                                               : static_cast<float>(std::min(noisy, spec_.range)));
   }

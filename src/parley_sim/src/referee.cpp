@@ -8,12 +8,12 @@
 namespace parley::sim {
 namespace {
 
-constexpr double kStandingSpeed = 0.02;     // [m/s]
-constexpr double kStandingTurnRate = 0.02;  // [rad/s]
-constexpr double kStandingTime = 0.5;       // [s]
-constexpr double kTouchedSpeed = 0.05;      // [m/s] slower than this, being hit is no fault
+constexpr double kStandingSpeed = 0.02;       // [m/s]
+constexpr double kStandingTurnRate = 0.02;    // [rad/s]
+constexpr double kStandingTime = 0.5;         // [s]
+constexpr double kTouchedSpeed = 0.05;        // [m/s] slower than this, being hit is no fault
 constexpr double kClearanceOfInterest = 2.0;  // [m]
-constexpr double kSameTime = 1e-9;          // [s]
+constexpr double kSameTime = 1e-9;            // [s]
 
 bool stands(const Twist2& twist) {
   return std::abs(twist.speed) < kStandingSpeed && std::abs(twist.turn_rate) < kStandingTurnRate;
@@ -22,10 +22,7 @@ bool stands(const Twist2& twist) {
 }  // namespace
 
 Referee::Referee(const Scenario& scenario, const World& world)
-    : scenario_(scenario),
-      world_(&world),
-      standing_(scenario.robots.size(), 0.0),
-      records_(scenario.robots.size()) {
+    : scenario_(scenario), world_(&world), standing_(scenario.robots.size(), 0.0), records_(scenario.robots.size()) {
   for (const RobotSpec& robot : scenario.robots) last_positions_.push_back(robot.start.position());
 }
 
@@ -69,8 +66,8 @@ void Referee::judgeContacts(const Snapshot& snapshot) {
 
 bool Referee::isAtGoal(std::size_t robot, const Pose2& truth, const Pose2& believed) const {
   const RobotSpec& spec = scenario_.robots[robot];
-  const double miss = scenario_.judge == Judge::kTruth ? (truth.position() - spec.goal).norm()
-                                                       : (believed.position() - spec.goalInOdom()).norm();
+  const double miss =
+      scenario_.judge == Judge::kTruth ? (truth.position() - spec.goal).norm() : (believed.position() - spec.goalInOdom()).norm();
   return miss <= scenario_.goal_tolerance;
 }
 
@@ -95,8 +92,8 @@ void Referee::judgeProgress(const Snapshot& snapshot, const std::vector<Pose2>& 
 }
 
 int Referee::collisions(ContactKind kind) const {
-  return static_cast<int>(std::count_if(incidents_.begin(), incidents_.end(),
-                                        [kind](const Incident& i) { return i.kind == kind && !i.touched; }));
+  return static_cast<int>(
+      std::count_if(incidents_.begin(), incidents_.end(), [kind](const Incident& i) { return i.kind == kind && !i.touched; }));
 }
 
 int Referee::touched() const {
@@ -107,8 +104,6 @@ bool Referee::allReached() const {
   return std::all_of(records_.begin(), records_.end(), [](const RobotRecord& r) { return r.reached || r.killed; });
 }
 
-bool Referee::success() const {
-  return allReached() && static_cast<int>(incidents_.size()) == touched();
-}
+bool Referee::success() const { return allReached() && static_cast<int>(incidents_.size()) == touched(); }
 
 }  // namespace parley::sim

@@ -30,7 +30,8 @@ void writeRobot(JsonWriter& json, const RobotResult& robot) {
 void writeRadio(JsonWriter& json, const Result& result) {
   json.beginObject("radio");
   json.number("bytes_per_second_per_robot", result.bytes_per_second_per_robot);
-  for (const char* kind : {"map_bytes", "keyframe_bytes", "trajectory_bytes", "beacon_bytes", "conflict_bytes", "overhead_bytes"}) {
+  for (const char* kind :
+       {"map_bytes", "keyframe_bytes", "trajectory_bytes", "beacon_bytes", "conflict_bytes", "overhead_bytes"}) {
     // the simulated radio does not look into packets
     if (result.nothing_sent) {
       json.integer(kind, 0);

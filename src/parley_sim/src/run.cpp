@@ -26,7 +26,8 @@ void checkWritable(const std::string& argument, const std::string& file) {
 }
 
 std::size_t robotNamed(const Scenario& scenario, const std::string& name) {
-  const auto found = std::find_if(scenario.robots.begin(), scenario.robots.end(), [&name](const RobotSpec& robot) { return robot.name == name; });
+  const auto found = std::find_if(scenario.robots.begin(), scenario.robots.end(),
+                                  [&name](const RobotSpec& robot) { return robot.name == name; });
   if (found == scenario.robots.end()) throw InputError("--bag-robot: " + name + ": there is no such robot in " + scenario.file);
   return static_cast<std::size_t>(found - scenario.robots.begin());
 }

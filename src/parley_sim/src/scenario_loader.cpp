@@ -39,9 +39,8 @@ LidarSpec readLidar(YamlSection section, LidarSpec lidar) {
   lidar.noise = section.number("noise", lidar.noise, {0.0, 1.0});
   const std::size_t mode = section.choice("mode", static_cast<std::size_t>(lidar.mode), {"planar", "spatial"});
   lidar.mode = static_cast<LidarMode>(mode);
-  const std::vector<double> pose =
-      section.numbers("pose", {lidar.pose.x, lidar.pose.y, lidar.height, lidar.pose.yaw},
-                      {{-5.0, 5.0}, {-5.0, 5.0}, {0.0, 2.4}, {-10.0, 10.0}});
+  const std::vector<double> pose = section.numbers("pose", {lidar.pose.x, lidar.pose.y, lidar.height, lidar.pose.yaw},
+                                                   {{-5.0, 5.0}, {-5.0, 5.0}, {0.0, 2.4}, {-10.0, 10.0}});
   lidar.pose = {pose[0], pose[1], pose[3]};
   lidar.height = pose[2];
   section.finish();

@@ -30,8 +30,7 @@ std::optional<Crossing> clip(const Crossing& so_far, double position, double slo
     return so_far;
   }
   const double first = (-half - position) / slope, second = (half - position) / slope;
-  const Crossing narrowed{std::max(so_far.enter, std::min(first, second)),
-                          std::min(so_far.leave, std::max(first, second))};
+  const Crossing narrowed{std::max(so_far.enter, std::min(first, second)), std::min(so_far.leave, std::max(first, second))};
   if (narrowed.enter > narrowed.leave) return std::nullopt;
   return narrowed;
 }
@@ -82,9 +81,7 @@ double distance(const Box& a, const Box& b) {
   return nearest;
 }
 
-double distance(const Box& box, const Disc& disc) {
-  return std::max(distance(box, disc.center) - disc.radius, 0.0);
-}
+double distance(const Box& box, const Disc& disc) { return std::max(distance(box, disc.center) - disc.radius, 0.0); }
 
 std::optional<Crossing> crossing(const Box& box, const Eigen::Vector2d& origin, const Eigen::Vector2d& direction) {
   const Eigen::Vector2d start = box.toLocal(origin);

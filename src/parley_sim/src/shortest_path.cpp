@@ -87,7 +87,8 @@ std::optional<Path> shortestPath(const World& world, const Eigen::Vector2d& star
   return path;
 }
 
-std::optional<double> shortestLength(const World& world, const Eigen::Vector2d& start, const Eigen::Vector2d& goal, double radius) {
+std::optional<double> shortestLength(const World& world, const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
+                                     double radius) {
   const std::optional<Path> path = shortestPath(world, start, goal, radius);
   if (!path) return std::nullopt;
   return lengthOf(*path);

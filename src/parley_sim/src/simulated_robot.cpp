@@ -4,10 +4,10 @@
 namespace parley::sim {
 namespace {
 
-constexpr double kSway = 0.012;            // [rad] of roll and pitch where they matter
-constexpr double kAttitudeNoise = 0.001;   // [rad]
-constexpr double kWholeTurn = 0.75;        // [-] a spatial lidar that began later than this does not report the turn
-constexpr double kSameTime = 1e-9;         // [s]
+constexpr double kSway = 0.012;           // [rad] of roll and pitch where they matter
+constexpr double kAttitudeNoise = 0.001;  // [rad]
+constexpr double kWholeTurn = 0.75;       // [-] a spatial lidar that began later than this does not report the turn
+constexpr double kSameTime = 1e-9;        // [s]
 
 double phaseOf(std::uint64_t seed, const std::string& robot, const std::string& sensor) {
   return RandomStream(seed, robot, "phase of " + sensor).uniform();

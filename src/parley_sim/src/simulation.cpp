@@ -6,13 +6,11 @@
 namespace parley::sim {
 namespace {
 
-constexpr int kSubsteps = 2;             // of the physics in a step: contacts are judged every 4 cm at 4 m/s
-constexpr double kDoorThickness = 0.1;   // [m]
+constexpr int kSubsteps = 2;            // of the physics in a step: contacts are judged every 4 cm at 4 m/s
+constexpr double kDoorThickness = 0.1;  // [m]
 constexpr int kStepsPerEncounterCheck = 5;
 
-Body bodyOf(const RobotSpec& spec) {
-  return {!spec.joins_later, {spec.start, {}}, spec.footprint.length, spec.footprint.width};
-}
+Body bodyOf(const RobotSpec& spec) { return {!spec.joins_later, {spec.start, {}}, spec.footprint.length, spec.footprint.width}; }
 
 Box doorBox(const Event& event) { return boxOfSegment(event.from, event.to, kDoorThickness); }
 
@@ -145,9 +143,7 @@ std::vector<RadioNode> Simulation::radioNodes() const {
   return nodes;
 }
 
-void Simulation::send(std::size_t robot, const Payload& payload) {
-  radio_.send(robot, payload, snapshot_.time, radioNodes());
-}
+void Simulation::send(std::size_t robot, const Payload& payload) { radio_.send(robot, payload, snapshot_.time, radioNodes()); }
 
 bool Simulation::finished() const {
   constexpr double kSameTime = 1e-9;  // [s]

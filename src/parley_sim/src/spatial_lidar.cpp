@@ -21,10 +21,10 @@ constexpr double kElevationStep = 0.5698402909980532;
 Eigen::Isometry3d lidarPose(const Pose2& T_world_base, const Attitude::Angles& attitude, const LidarSpec& spec) {
   Eigen::Isometry3d T_world_base3 = Eigen::Isometry3d::Identity();
   T_world_base3.translation() << T_world_base.x, T_world_base.y, 0.0;
-  T_world_base3.linear() = (Eigen::AngleAxisd(T_world_base.yaw, Eigen::Vector3d::UnitZ()) *
-                            Eigen::AngleAxisd(attitude.pitch, Eigen::Vector3d::UnitY()) *
-                            Eigen::AngleAxisd(attitude.roll, Eigen::Vector3d::UnitX()))
-                               .toRotationMatrix();
+  T_world_base3.linear() =
+      (Eigen::AngleAxisd(T_world_base.yaw, Eigen::Vector3d::UnitZ()) *
+       Eigen::AngleAxisd(attitude.pitch, Eigen::Vector3d::UnitY()) * Eigen::AngleAxisd(attitude.roll, Eigen::Vector3d::UnitX()))
+          .toRotationMatrix();
   Eigen::Isometry3d T_base_lidar = Eigen::Isometry3d::Identity();
   T_base_lidar.translation() << spec.pose.x, spec.pose.y, spec.height;
   T_base_lidar.linear() = Eigen::AngleAxisd(spec.pose.yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();

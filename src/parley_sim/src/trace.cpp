@@ -26,7 +26,8 @@ void Trace::note(const FleetRunner& runner) {
     if (!body.present) continue;
     const auto& [pose, twist] = body.state;
     std::array<char, 160> numbers{};
-    std::snprintf(numbers.data(), numbers.size(), "%.4f,%.4f,%.5f,%.4f,%.4f", pose.x, pose.y, pose.yaw, twist.speed, twist.turn_rate);
+    std::snprintf(numbers.data(), numbers.size(), "%.4f,%.4f,%.5f,%.4f,%.4f", pose.x, pose.y, pose.yaw, twist.speed,
+                  twist.turn_rate);
     std::array<char, 32> time{};
     std::snprintf(time.data(), time.size(), "%.2f", simulation.time());
     stream_ << time.data() << ',' << simulation.scenario().robots[i].name << ',' << numbers.data() << ','

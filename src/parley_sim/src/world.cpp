@@ -33,8 +33,7 @@ double World::distanceToSolid(const Box& box, double limit) const {
   const double reach = limit + box.circumradius();
   if (freeRadius(box.center) >= reach) return limit;
   const Eigen::Vector2i low = frame_.cellOf(box.center.array() - reach).cwiseMax(-1);
-  const Eigen::Vector2i high =
-      frame_.cellOf(box.center.array() + reach).cwiseMin(Eigen::Vector2i(frame_.width, frame_.height));
+  const Eigen::Vector2i high = frame_.cellOf(box.center.array() + reach).cwiseMin(Eigen::Vector2i(frame_.width, frame_.height));
   double nearest = limit;
   for (int y = low.y(); y <= high.y(); ++y) {
     for (int x = low.x(); x <= high.x(); ++x) {

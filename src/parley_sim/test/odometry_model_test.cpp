@@ -50,11 +50,11 @@ TEST(OdometryModelTest, driftGrowsWithTheSquareRootOfTheDistance) {
 TEST(OdometryModelTest, turningOnTheSpotDriftsALittleAndStandingNotAtAll) {
   const OdometrySpec spec{50.0, 0.01, 0.001};
   const Spread turning = driftAfter({0.0, 1.0}, 10.0, spec);
-  EXPECT_EQ(turning.x, 0.0);
+  EXPECT_NEAR(turning.x, 0.0, 1e-9);
   EXPECT_GT(turning.yaw, 0.0005);
   EXPECT_LT(turning.yaw, 0.003);
   const Spread standing = driftAfter({0.0, 0.0}, 10.0, spec);
-  EXPECT_EQ(standing.x + standing.y + standing.yaw, 0.0);
+  EXPECT_NEAR(standing.x + standing.y + standing.yaw, 0.0, 1e-9);
 }
 
 TEST(OdometryModelTest, readingsCarryTwistAndAttitude) {

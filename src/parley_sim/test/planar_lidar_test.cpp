@@ -73,8 +73,8 @@ TEST(PlanarLidarTest, mountMovesAndTurnsTheBeams) {
   LidarSpec spec = quiet();
   spec.pose = {0.5, 0.0, kPi / 2};
   const RangeScan scan = lidar(spec).scan(0.0, {1.0, 1.0, 0.0}, scene, 0);
-  EXPECT_NEAR(at(scan, 0.0), 3.0, 1e-5);        // along y of the base
-  EXPECT_NEAR(at(scan, -kPi / 2), 2.5, 1e-5);   // along x
+  EXPECT_NEAR(at(scan, 0.0), 3.0, 1e-5);       // along y of the base
+  EXPECT_NEAR(at(scan, -kPi / 2), 2.5, 1e-5);  // along x
 }
 
 TEST(PlanarLidarTest, tooNearIsMinusInfinityAndInsideSomethingIsToo) {
@@ -100,7 +100,8 @@ TEST(PlanarLidarTest, noiseHasTheAskedDeviationAndDoesNotDependOnWhatIsSeen) {
   int count = 0, equal = 0;
   for (int round = 0; round < 20; ++round) {
     const Pose2 pose{3.0, 3.0, 0.1 * round};
-    const RangeScan a = noisy.scan(0.0, pose, alone, 0), truth = exact.scan(0.0, pose, alone, 0), c = other.scan(0.0, pose, crowded, 0);
+    const RangeScan a = noisy.scan(0.0, pose, alone, 0), truth = exact.scan(0.0, pose, alone, 0),
+                    c = other.scan(0.0, pose, crowded, 0);
     for (std::size_t i = 0; i < a.ranges.size(); ++i) {
       if (truth.ranges[i] > 3.9F) continue;
       const double error = a.ranges[i] - truth.ranges[i];

@@ -16,7 +16,8 @@ class ScenarioLoaderTest : public testing::Test {
   std::string write(const std::string& text) { return directory_.write("s.yaml", text); }
   static std::string robots(const std::string& rest = "") {
     return "map: room.yaml\nduration: 60\nrobots:\n  - {name: a, start: [1, 1, 0], goal: [8, 8]}\n"
-           "  - {name: b, start: [3, 1, 1.5], goal: [8, 1]}\n" + rest;
+           "  - {name: b, start: [3, 1, 1.5], goal: [8, 1]}\n" +
+           rest;
   }
   /// What is said of a file, without the folder.
   std::string messageOf(const std::string& text, const std::vector<Override>& overrides = {}) {
@@ -89,10 +90,10 @@ TEST_F(ScenarioLoaderTest, aRobotsOwnEntryWinsKeyByKey) {
 }
 
 TEST_F(ScenarioLoaderTest, readsEventsByTimeAndObstacles) {
-  const Scenario s = loadScenario(write(robots(
-      "events:\n  - {time: 20, kill: a}\n  - {time: 10, join: b}\n  - {time: 15, door: [[4, 4], [4, 6]], state: closed}\n"
-      "  - {time: 5, stall: b, for: 10}\n  - {time: 6, mute: b, for: 1}\n  - {time: 7, blind: a, for: 2}\n"
-      "obstacles:\n  - {path: [[1, 2], [3, 4]]}\n")));
+  const Scenario s = loadScenario(write(
+      robots("events:\n  - {time: 20, kill: a}\n  - {time: 10, join: b}\n  - {time: 15, door: [[4, 4], [4, 6]], state: closed}\n"
+             "  - {time: 5, stall: b, for: 10}\n  - {time: 6, mute: b, for: 1}\n  - {time: 7, blind: a, for: 2}\n"
+             "obstacles:\n  - {path: [[1, 2], [3, 4]]}\n")));
   ASSERT_EQ(s.events.size(), 6u);
   EXPECT_EQ(s.events[0].kind, EventKind::kStall);
   EXPECT_EQ(s.events[0].robot, 1u);
@@ -160,11 +161,15 @@ TEST_F(ScenarioLoaderTest, everythingWrongIsOneLineWithFileKeyAndReason) {
       {"map: room.yaml\nrobots: [{name: a, start: [1, 1, 0], goal: [8, 8]}]\n", "s.yaml: duration: is missing"},
       {"duration: 60\n", "s.yaml: map: is missing"},
       {"map: hall.yaml\nduration: 60\n", "s.yaml: map: no such file: "},
-      {"map: room.yaml\nduration: 60\nrobots: [{name: a, start: [1, 1], goal: [8, 8]}]\n", "s.yaml: robots.0.start: must be a list of 3"},
-      {"map: room.yaml\nduration: 60\nrobots: [{name: a, start: [1, x, 0], goal: [8, 8]}]\n", "s.yaml: robots.0.start.1: must be a number"},
+      {"map: room.yaml\nduration: 60\nrobots: [{name: a, start: [1, 1], goal: [8, 8]}]\n",
+       "s.yaml: robots.0.start: must be a list of 3"},
+      {"map: room.yaml\nduration: 60\nrobots: [{name: a, start: [1, x, 0], goal: [8, 8]}]\n",
+       "s.yaml: robots.0.start.1: must be a number"},
       {"map: room.yaml\nduration: 60\nrobots: [{name: a, start: [1, 1, 0]}]\n", "s.yaml: robots.0.goal: is missing"},
-      {"map: room.yaml\nduration: 60\nrobots: [{name: a b, start: [1, 1, 0], goal: [8, 8]}]\n", "s.yaml: robots.0.name: is 'a b'"},
-      {"map: room.yaml\nduration: 60\nrobots: [{name: [a], start: [1, 1, 0], goal: [8, 8]}]\n", "s.yaml: robots.0.name: must be a text"},
+      {"map: room.yaml\nduration: 60\nrobots: [{name: a b, start: [1, 1, 0], goal: [8, 8]}]\n",
+       "s.yaml: robots.0.name: is 'a b'"},
+      {"map: room.yaml\nduration: 60\nrobots: [{name: [a], start: [1, 1, 0], goal: [8, 8]}]\n",
+       "s.yaml: robots.0.name: must be a text"},
       {"map: room.yaml\nduration: 60\nrobots: [3]\n", "s.yaml: robots.0: must be a map"},
       {"- 1\n", "s.yaml: the file: must be a map"},
       {"map: [\n", "s.yaml: the file: is not YAML"},

@@ -9,7 +9,8 @@ namespace parley::sim {
 namespace {
 
 Box randomBox(RandomStream& random) {
-  return boxAt({random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-4, 4)}, random.uniform(0.1, 1.5), random.uniform(0.1, 1.5));
+  return boxAt({random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-4, 4)}, random.uniform(0.1, 1.5),
+               random.uniform(0.1, 1.5));
 }
 
 /// Whether the point lies in the box, told from its corners alone.
@@ -28,7 +29,8 @@ std::vector<Eigen::Vector2d> samples(const Box& box, int count) {
   std::vector<Eigen::Vector2d> points;
   for (int i = 0; i <= count; ++i) {
     for (int j = 0; j <= count; ++j) {
-      points.push_back(corners[2] + double(i) / count * (corners[3] - corners[2]) + double(j) / count * (corners[1] - corners[2]));
+      points.push_back(corners[2] + double(i) / count * (corners[3] - corners[2]) +
+                       double(j) / count * (corners[1] - corners[2]));
     }
   }
   return points;

@@ -80,7 +80,8 @@ TEST(ShortestPathTest, theShorterOfTwoWaysAtAnOddAngle) {
 TEST(ShortestPathTest, passagesAsWideAsTheDiscAreOpenAndNarrowerOnesAreNot) {
   for (const int cells : {9, 10, 11, 12}) {
     const double gap = 0.05 * cells;
-    const World world = drawnWorld(8, 4, 0.05, [gap](double x, double y) { return std::abs(x - 4.0) < 0.5 && (y < 2.0 || y > 2.0 + gap); });
+    const World world =
+        drawnWorld(8, 4, 0.05, [gap](double x, double y) { return std::abs(x - 4.0) < 0.5 && (y < 2.0 || y > 2.0 + gap); });
     const auto length = shortestLength(world, {1, 2}, {7, 2}, kRadius);
     EXPECT_EQ(length.has_value(), cells >= 10) << cells;
     if (length) {

@@ -123,7 +123,8 @@ TEST(SimulationTest, theKilledBrakeAndSayNothingMore) {
 TEST(SimulationTest, stallMuteAndBlindPass) {
   const World world = emptyWorld(20, 20);
   Scenario scenario = withRobots({{3, 10, 0}, {5, 5, 0}});
-  scenario.events = {event(EventKind::kStall, 1.0, 0, 2.0), event(EventKind::kMute, 1.0, 0, 2.0), event(EventKind::kBlind, 1.0, 0, 2.0)};
+  scenario.events = {event(EventKind::kStall, 1.0, 0, 2.0), event(EventKind::kMute, 1.0, 0, 2.0),
+                     event(EventKind::kBlind, 1.0, 0, 2.0)};
   Simulation simulation(scenario, world);
   simulation.command(0, {0.5, 0.0});
   int scans = 0;
@@ -142,7 +143,8 @@ TEST(SimulationTest, stallMuteAndBlindPass) {
   EXPECT_NEAR(simulation.truth().bodies[0].state.twist.speed, 0.5, 1e-9);
   simulation.send(0, Payload(1));
   EXPECT_EQ(simulation.radio().packets_sent, 1);
-  EXPECT_EQ(run(simulation, 0.06)[1].packets.size() + simulation.radio().received, 2);
+  run(simulation, 0.06);
+  EXPECT_EQ(simulation.radio().received, 1);
 }
 
 TEST(SimulationTest, packetsArriveInLaterSteps) {
@@ -240,7 +242,7 @@ TEST(SimulationTest, sameSeedSameBitsAndAnotherRobotChangesNobodysNoise) {
     crowd.robots[0].lidar.mode = mode;
     std::swap(crowd.robots[0], crowd.robots[2]);  // nor does its place in the file
     const std::vector<double> first = sensedBy("robot_0", alone, world);
-    EXPECT_GT(first.size(), 10000u);
+    EXPECT_GT(first.size(), 5000u);
     EXPECT_EQ(first, sensedBy("robot_0", alone, world));
     EXPECT_EQ(first, sensedBy("robot_0", crowd, world));
     alone.seed = 2;

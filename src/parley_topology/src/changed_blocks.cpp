@@ -29,11 +29,11 @@ void ChangedBlocks::mark(const Tile& tile, int margin) {
   for (int block = 0; block < kBlocksPerTile * kBlocksPerTile; ++block) {
     const int x = tile.tx * kBlocksPerTile + block % kBlocksPerTile, y = tile.ty * kBlocksPerTile + block / kBlocksPerTile;
     const unsigned bit = 1U << block;
-    if (tile.changed_seen & bit) at(x, y) = std::max<std::uint8_t>(at(x, y), kSeenTouched);
-    if (!(tile.changed_field & bit)) continue;
-    for (int dy = -margin; dy <= margin; ++dy) {
-      for (int dx = -margin; dx <= margin; ++dx) at(x + dx, y + dy) = kFieldTouched;
+    const int spread = tile.changed_field & bit ? margin : 0;
+    for (int dy = -spread; (tile.changed_seen | tile.changed_field) & bit && dy <= spread; ++dy) {
+      for (int dx = -spread; dx <= spread; ++dx) at(x + dx, y + dy) = std::max<std::uint8_t>(at(x + dx, y + dy), kMeasures);
     }
+    if (tile.changed_passable & bit) at(x, y) = kPassage;
   }
 }
 
@@ -71,7 +71,7 @@ ChangedBlocks::Touch ChangedBlocks::touchOf(const Eigen::Vector2d& a, const Eige
   while (cell[0] >= rect_.x0 && cell[0] < rect_.x1 && cell[1] >= rect_.y0 && cell[1] < rect_.y1) {
     touch = std::max(touch, static_cast<Touch>(at(cell[0], cell[1])));
     const int k = next[0] < next[1] ? 0 : 1;
-    if (touch == kFieldTouched || next[k] > leave) return touch;
+    if (touch == kPassage || next[k] > leave) return touch;
     cell[k] += sign[k];
     next[k] += step[k];
   }

@@ -12,11 +12,12 @@ namespace parley {
 /// The blocks of the map that changed in an update, for asking which straight ways lead past them.
 class ChangedBlocks {
  public:
-  /// Ways within `influence` [m] of a changed distance count as touched in their surroundings.
+  /// A change of distances bears on the measures of ways within `influence` [m].
   ChangedBlocks(const TiledMap& map, double influence);
 
-  enum Touch : std::uint8_t { kUntouched = 0, kSeenTouched = 1, kFieldTouched = 2 };
-  /// What a way leads past, kFieldTouched before kSeenTouched.
+  /// What a change does to a way: nothing, its measures may be others, or it may open or shut.
+  enum Touch : std::uint8_t { kUntouched = 0, kMeasures = 1, kPassage = 2 };
+  /// The most that any change does to a way.
   Touch touchOf(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
 
   /// Whether a point is further than `reach` [m] from all that changed, in x or in y.

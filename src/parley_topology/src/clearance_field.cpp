@@ -141,9 +141,11 @@ void store(TiledMap& map, const FieldImage& image) {
         setBit(flags, kPassable, image.passable(row, column));
         const std::uint8_t distance = image.distance(row, column);
         if (flags == tile->flags[i] && distance == tile->distance[i]) continue;
+        const std::uint16_t block = blockBit(x, y);
+        tile->changed_field = static_cast<std::uint16_t>(tile->changed_field | block);
+        if ((flags ^ tile->flags[i]) & kPassable) tile->changed_passable = static_cast<std::uint16_t>(tile->changed_passable | block);
         tile->flags[i] = flags;
         tile->distance[i] = distance;
-        tile->changed_field = static_cast<std::uint16_t>(tile->changed_field | blockBit(x, y));
       }
     }
   });

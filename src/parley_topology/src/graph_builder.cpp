@@ -1,4 +1,3 @@
-#include <cstdio>
 // SPDX-License-Identifier: BSD-3-Clause
 #include "graph_builder.h"
 
@@ -33,21 +32,53 @@ int nearestMatch(const VisibilityGraph& graph, const std::vector<int>& candidate
   return best;
 }
 
-/// Tiles whose contours or corners may be others now: those that changed and those beside them, in a fixed order.
-std::vector<Tile*> tilesToTrace(TiledMap& map) {
-  std::vector<Tile*> touched;
-  for (const auto& tile : map.tiles()) {
-    if (!tile->changed_field) continue;
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        Tile* near = map.find(tile->tx + dx, tile->ty + dy);
-        if (near) touched.push_back(near);
-      }
+/// Blocks of a tile that lie along the side towards its neighbour at (dx, dy).
+std::uint16_t blocksTowards(int dx, int dy) {
+  std::uint16_t blocks = 0;
+  for (int block = 0; block < 16; ++block) {
+    const int x = block & 3, y = block >> 2;
+    const bool in_x = dx == 0 || x == (dx < 0 ? 0 : 3), in_y = dy == 0 || y == (dy < 0 ? 0 : 3);
+    if (in_x && in_y) blocks = static_cast<std::uint16_t>(blocks | 1U << block);
+  }
+  return blocks;
+}
+
+struct TouchedTiles {
+  std::vector<Tile*> contours;  // contours may be others now: what changed is in them or right beside them
+  std::vector<Tile*> corners;   // corners may be others now: contours here or in a tile beside may be
+};
+
+void sortUnique(std::vector<Tile*>& tiles) {
+  std::sort(tiles.begin(), tiles.end(), [](const Tile* a, const Tile* b) { return a->ty != b->ty ? a->ty < b->ty : a->tx < b->tx; });
+  tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
+}
+
+template <class Visit>
+void forEachAround(TiledMap& map, const Tile& tile, const Visit& visit) {
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      if (Tile* near = map.find(tile.tx + dx, tile.ty + dy)) visit(near, dx, dy);
     }
   }
-  std::sort(touched.begin(), touched.end(),
-            [](const Tile* a, const Tile* b) { return a->ty != b->ty ? a->ty < b->ty : a->tx < b->tx; });
-  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+}
+
+/// In a fixed order. Who is behind a corner can change by what own sensing has seen, if there are layers.
+TouchedTiles touchedTiles(TiledMap& map, bool layers) {
+  TouchedTiles touched;
+  for (const auto& tile : map.tiles()) {
+    if (layers && tile->changed_seen) {
+      forEachAround(map, *tile, [&](Tile* near, int, int) { touched.corners.push_back(near); });
+    }
+    if (!tile->changed_field) continue;
+    forEachAround(map, *tile, [&](Tile* near, int dx, int dy) {
+      if (tile->changed_field & blocksTowards(dx, dy)) touched.contours.push_back(near);
+    });
+  }
+  sortUnique(touched.contours);
+  for (const Tile* tile : touched.contours) {
+    forEachAround(map, *tile, [&](Tile* near, int, int) { touched.corners.push_back(near); });
+  }
+  sortUnique(touched.corners);
   return touched;
 }
 
@@ -57,9 +88,9 @@ GraphBuilder::Result GraphBuilder::update(TiledMap& map, const LayerStore& layer
   Result result;
   const ChangedBlocks changed(map, options_.clearance_cap);
   if (changed.empty()) return result;
-  const std::vector<Tile*> touched = tilesToTrace(map);
-  for (Tile* tile : touched) tile->chains = traceTile(map, tile->tx, tile->ty, shape_, options_.simplify);
-  const std::vector<int> fresh = matchCorners(map, touched, layers, result);
+  const TouchedTiles touched = touchedTiles(map, layers.count() > 0);
+  for (Tile* tile : touched.contours) tile->chains = traceTile(map, tile->tx, tile->ty, shape_, options_.simplify);
+  const std::vector<int> fresh = matchCorners(map, touched.corners, layers, result);
   const bool edges_changed = refreshPairs(map, changed);
   std::vector<char> pending(static_cast<std::size_t>(graph_.slotCount()), 0);
   for (const int slot : fresh) pending[static_cast<std::size_t>(slot)] = 1;
@@ -67,8 +98,7 @@ GraphBuilder::Result GraphBuilder::update(TiledMap& map, const LayerStore& layer
     pending[static_cast<std::size_t>(slot)] = 0;
     connect(map, slot, pending);
   }
-  fprintf(stderr,"Y %zu %d\n", fresh.size(), result.removed);
-  for (const auto& tile : map.tiles()) tile->changed_field = tile->changed_seen = 0;
+  for (const auto& tile : map.tiles()) tile->changed_field = tile->changed_passable = tile->changed_seen = 0;
   result.changed = edges_changed || result.added + result.removed > 0;
   return result;
 }
@@ -128,7 +158,6 @@ std::vector<int> GraphBuilder::matchCorners(TiledMap& map, const std::vector<Til
 
 /// Looks again at edges that lead past a change, and at pairs that were shut where something changed.
 bool GraphBuilder::refreshPairs(TiledMap& map, const ChangedBlocks& changed) {
-  const Sight sight(map, options_, shape_);
   std::vector<int> affected = pairsNoLongerShut(map);
   bool any = !affected.empty();
   for (int slot = 0; slot < graph_.slotCount(); ++slot) {
@@ -139,12 +168,12 @@ bool GraphBuilder::refreshPairs(TiledMap& map, const ChangedBlocks& changed) {
       const Eigen::Vector2d& a = graph_.vertex(slot).position;
       const Eigen::Vector2d& b = graph_.vertex(link.to).position;
       const ChangedBlocks::Touch touch = changed.touchOf(a, b);
-      any = any || touch != ChangedBlocks::kUntouched;
-      if (touch == ChangedBlocks::kFieldTouched) affected.push_back(pair_of_edge_[static_cast<std::size_t>(link.edge)]);
-      if (touch == ChangedBlocks::kSeenTouched) sight.measureSeenAgain(edge, a, b);
+      if (touch == ChangedBlocks::kUntouched) continue;
+      any = true;
+      edge.measured = false;
+      if (touch == ChangedBlocks::kPassage) affected.push_back(pair_of_edge_[static_cast<std::size_t>(link.edge)]);
     }
   }
-  fprintf(stderr,"X %zu %d %d\n", affected.size(), graph_.vertexCount(), graph_.edgeCount());
   for (const int pair : affected) settle(map, pair);
   return any;
 }
@@ -153,7 +182,7 @@ bool GraphBuilder::refreshPairs(TiledMap& map, const ChangedBlocks& changed) {
 std::vector<int> GraphBuilder::pairsNoLongerShut(TiledMap& map) {
   std::vector<int> freed;
   for (const auto& tile : map.tiles()) {
-    if (!tile->changed_field) continue;
+    if (!tile->changed_passable) continue;
     std::vector<Watch> kept;
     for (const Watch& watch : tile->watches) {
       const Pair& pair = pairs_[static_cast<std::size_t>(watch.pair)];
@@ -196,7 +225,7 @@ void GraphBuilder::connect(TiledMap& map, int slot, const std::vector<char>& pen
   }
 }
 
-/// Walks a pair's way: makes, measures or removes its edge, and sets its watch.
+/// Walks a pair's way: makes or removes its edge, and sets its watch.
 void GraphBuilder::settle(TiledMap& map, int pair) {
   Pair& p = pairs_[static_cast<std::size_t>(pair)];
   const Sight sight(map, options_, shape_);
@@ -211,17 +240,20 @@ void GraphBuilder::settle(TiledMap& map, int pair) {
     watch(map, pair);
     return;
   }
-  Edge edge = sight.measure(a.position, b.position);
+  if (p.edge >= 0) return;
+  Edge edge;
   edge.from = p.a;
   edge.to = p.b;
+  edge.length = (b.position - a.position).norm();
   edge.provenance = a.provenance.hops >= b.provenance.hops ? a.provenance : b.provenance;
-  if (p.edge >= 0) {
-    graph_.edge(p.edge) = edge;
-  } else {
-    p.edge = graph_.addEdge(edge);
-    if (static_cast<std::size_t>(p.edge) >= pair_of_edge_.size()) pair_of_edge_.resize(static_cast<std::size_t>(p.edge) + 1);
-    pair_of_edge_[static_cast<std::size_t>(p.edge)] = pair;
-  }
+  p.edge = graph_.addEdge(edge);
+  if (static_cast<std::size_t>(p.edge) >= pair_of_edge_.size()) pair_of_edge_.resize(static_cast<std::size_t>(p.edge) + 1);
+  pair_of_edge_[static_cast<std::size_t>(p.edge)] = pair;
+}
+
+void GraphBuilder::measureEdges(const TiledMap& map) {
+  const Sight sight(map, options_, shape_);
+  for (int slot = 0; slot < graph_.edgeSlotCount(); ++slot) measureEdge(graph_, slot, sight);
 }
 
 void GraphBuilder::watch(TiledMap& map, int pair) {

@@ -29,7 +29,9 @@ class GraphBuilder {
   /// Brings the graph up to date with the blocks noted in `changed_field`, and clears these.
   Result update(TiledMap& map, const LayerStore& layers);
 
-  const VisibilityGraph& graph() const { return graph_; }
+  /// Edges are measured when a search asks for them, `measureEdges` measures the rest.
+  VisibilityGraph& graph() { return graph_; }
+  void measureEdges(const TiledMap& map);
   bool saturated() const { return saturated_; }
   void clear();
 

@@ -27,12 +27,12 @@ std::vector<char> tubeAround(const std::vector<Eigen::Vector2d>& way, double rad
 
 }  // namespace
 
-FoundRoute RouteKeeper::search(const VisibilityGraph& graph, const Sight& sight, const RouteQuery& query) const {
+FoundRoute RouteKeeper::search(VisibilityGraph& graph, const Sight& sight, const RouteQuery& query) const {
   if (options_.search == "depth_first") return searchDepthFirst(graph, sight, query, options_.max_expansions);
   return searchAstar(graph, sight, query);
 }
 
-FoundRoute RouteKeeper::choose(const TiledMap& map, const VisibilityGraph& graph, const Sight& sight, const RouteQuery& query) {
+FoundRoute RouteKeeper::choose(const TiledMap& map, VisibilityGraph& graph, const Sight& sight, const RouteQuery& query) {
   FoundRoute best = search(graph, sight, query);
   if (committed_.empty() || !best.exists()) return best;
   std::vector<Eigen::Vector2d> held = committed_;  // from here back onto it; the spur encloses nothing
@@ -50,7 +50,7 @@ FoundRoute RouteKeeper::choose(const TiledMap& map, const VisibilityGraph& graph
   return best;
 }
 
-Route RouteKeeper::route(const TiledMap& map, const VisibilityGraph& graph, const Sight& sight, const Eigen::Vector2d& start,
+Route RouteKeeper::route(const TiledMap& map, VisibilityGraph& graph, const Sight& sight, const Eigen::Vector2d& start,
                          const Eigen::Vector2d& goal) {
   if (!has_goal_ || (goal - goal_).norm() > kSameGoal) {
     clear();

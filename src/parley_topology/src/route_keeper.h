@@ -16,13 +16,13 @@ class RouteKeeper {
  public:
   explicit RouteKeeper(const TopologyOptions& options) : options_(options) {}
 
-  Route route(const TiledMap& map, const VisibilityGraph& graph, const Sight& sight, const Eigen::Vector2d& start,
+  Route route(const TiledMap& map, VisibilityGraph& graph, const Sight& sight, const Eigen::Vector2d& start,
               const Eigen::Vector2d& goal);
   void clear() { *this = RouteKeeper(options_); }
 
  private:
-  FoundRoute search(const VisibilityGraph& graph, const Sight& sight, const RouteQuery& query) const;
-  FoundRoute choose(const TiledMap& map, const VisibilityGraph& graph, const Sight& sight, const RouteQuery& query);
+  FoundRoute search(VisibilityGraph& graph, const Sight& sight, const RouteQuery& query) const;
+  FoundRoute choose(const TiledMap& map, VisibilityGraph& graph, const Sight& sight, const RouteQuery& query);
 
   TopologyOptions options_;
   std::vector<Eigen::Vector2d> committed_;  // [m] the way last answered; empty if none

@@ -18,7 +18,7 @@ constexpr int kNoParent = -2;
 /// The graph with start and goal in it. The goal's number is one past the slots.
 class SearchSpace {
  public:
-  SearchSpace(const VisibilityGraph& graph, const Sight& sight, const RouteQuery& query)
+  SearchSpace(VisibilityGraph& graph, const Sight& sight, const RouteQuery& query)
       : graph_(graph), sight_(sight), query_(query) {}
 
   int goal() const { return graph_.slotCount(); }
@@ -58,7 +58,13 @@ class SearchSpace {
     return route;
   }
 
-  const VisibilityGraph& graph() const { return graph_; }
+  const std::vector<VisibilityGraph::Link>& links(int slot) const { return graph_.links(slot); }
+  /// What the cost of an edge cannot be below: cheap.
+  double leastCost(int edge) const { return graph_.edge(edge).length; }
+  double cost(int edge) const {
+    measureEdge(graph_, edge, sight_);
+    return graph_.edge(edge).cost;
+  }
 
  private:
   bool isTangentTo(int slot, const Eigen::Vector2d& point) const {
@@ -67,7 +73,7 @@ class SearchSpace {
     return length < 1e-6 || isTangent(graph_.vertex(slot), way / length, kTangentSlack);
   }
 
-  const VisibilityGraph& graph_;
+  VisibilityGraph& graph_;
   const Sight& sight_;
   const RouteQuery& query_;
 };
@@ -115,8 +121,9 @@ class Astar {
 
   void expand(int node) {
     const double so_far = cost_[static_cast<std::size_t>(node)];
-    for (const VisibilityGraph::Link& link : space_.graph().links(node)) {
-      if (space_.usable(link.to)) relax(link.to, node, so_far + space_.graph().edge(link.edge).cost);
+    for (const VisibilityGraph::Link& link : space_.links(node)) {
+      if (!space_.usable(link.to) || so_far + space_.leastCost(link.edge) >= cost_[static_cast<std::size_t>(link.to)]) continue;
+      relax(link.to, node, so_far + space_.cost(link.edge));
     }
     if (so_far + space_.toGoal(node) >= cost_[static_cast<std::size_t>(space_.goal())]) return;
     if (const std::optional<Edge> edge = space_.edgeToGoal(node)) relax(space_.goal(), node, so_far + edge->cost);
@@ -185,8 +192,8 @@ class DepthFirst {
       return;
     }
     std::vector<Branch> branches;
-    for (const VisibilityGraph::Link& link : space_.graph().links(branch.node)) {
-      if (space_.usable(link.to)) branches.push_back({branch.cost + space_.graph().edge(link.edge).cost, link.to, branch.node});
+    for (const VisibilityGraph::Link& link : space_.links(branch.node)) {
+      if (space_.usable(link.to)) branches.push_back({branch.cost + space_.cost(link.edge), link.to, branch.node});
     }
     if (const std::optional<Edge> edge = space_.edgeToGoal(branch.node)) {
       branches.push_back({branch.cost + edge->cost, space_.goal(), branch.node});
@@ -204,11 +211,11 @@ class DepthFirst {
 
 }  // namespace
 
-FoundRoute searchAstar(const VisibilityGraph& graph, const Sight& sight, const RouteQuery& query) {
+FoundRoute searchAstar(VisibilityGraph& graph, const Sight& sight, const RouteQuery& query) {
   return Astar(SearchSpace(graph, sight, query)).search();
 }
 
-FoundRoute searchDepthFirst(const VisibilityGraph& graph, const Sight& sight, const RouteQuery& query, int max_expansions) {
+FoundRoute searchDepthFirst(VisibilityGraph& graph, const Sight& sight, const RouteQuery& query, int max_expansions) {
   return DepthFirst(SearchSpace(graph, sight, query), max_expansions).search();
 }
 

@@ -27,9 +27,9 @@ struct FoundRoute {
 };
 
 /// A* with decrease-key. Edges to the start and to the goal are looked at only when the search gets to them.
-FoundRoute searchAstar(const VisibilityGraph& graph, const Sight& sight, const RouteQuery& query);
+FoundRoute searchAstar(VisibilityGraph& graph, const Sight& sight, const RouteQuery& query);
 
 /// The paper's depth-first search, as branch and bound: optimal too unless it has to stop after `max_expansions`.
-FoundRoute searchDepthFirst(const VisibilityGraph& graph, const Sight& sight, const RouteQuery& query, int max_expansions);
+FoundRoute searchDepthFirst(VisibilityGraph& graph, const Sight& sight, const RouteQuery& query, int max_expansions);
 
 }  // namespace parley

@@ -25,6 +25,18 @@ double costOf(const Edge& edge, const TopologyOptions& options) {
          options.tentative_cost * edge.tentative_length;
 }
 
+void measureEdge(VisibilityGraph& graph, int slot, const Sight& sight) {
+  Edge& edge = graph.edge(slot);
+  if (edge.measured || edge.from < 0) return;
+  const Edge measures = sight.measure(graph.vertex(edge.from).position, graph.vertex(edge.to).position);
+  edge.clearance = measures.clearance;
+  edge.unknown_length = measures.unknown_length;
+  edge.narrow_length = measures.narrow_length;
+  edge.tentative_length = measures.tentative_length;
+  edge.cost = measures.cost;
+  edge.measured = true;
+}
+
 Walk Sight::walk(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
   const auto [p, q] = ordered(a, b);
   const double inverse = 1.0 / map_.resolution();
@@ -45,12 +57,9 @@ Edge Sight::measure(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
   edge.length = (q - p).norm();
   measureWidth(edge, p, q);
   measureSeen(edge, p, q);
+  edge.cost = costOf(edge, options_);
+  edge.measured = true;
   return edge;
-}
-
-void Sight::measureSeenAgain(Edge& edge, const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
-  const auto [p, q] = ordered(a, b);
-  measureSeen(edge, p, q);
 }
 
 void Sight::measureSeen(Edge& edge, const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
@@ -63,7 +72,6 @@ void Sight::measureSeen(Edge& edge, const Eigen::Vector2d& a, const Eigen::Vecto
   }
   edge.unknown_length = edge.length * unknown / steps;
   edge.tentative_length = edge.length * tentative / steps;
-  edge.cost = costOf(edge, options_);
 }
 
 std::optional<Edge> Sight::look(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {

@@ -29,9 +29,6 @@ class Sight {
   /// Length, cost and what they are made of, for a way that is open.
   Edge measure(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
 
-  /// Measures again what depends on what was seen along the way; its surroundings have not changed.
-  void measureSeenAgain(Edge& edge, const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
-
   /// Walk and measure; nullopt if the way is not open.
   std::optional<Edge> look(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
 
@@ -56,6 +53,9 @@ class Sight {
   const TopologyOptions& options_;
   const FieldShape& shape_;
 };
+
+/// Measures an edge of a graph unless that is done; an empty slot is left alone.
+void measureEdge(VisibilityGraph& graph, int slot, const Sight& sight);
 
 /// Cost of an edge from its measures. [m]
 double costOf(const Edge& edge, const TopologyOptions& options);

@@ -86,6 +86,7 @@ struct Tile {
   std::uint16_t changed_cells = 0;  // what is occupied, or seen with layers about: the field has to be worked out again
   std::uint16_t changed_seen = 0;   // what is seen or tentative: measures of edges across it
   std::uint16_t changed_field = 0;  // distances and what follows from them: contours, and measures of edges near by
+  std::uint16_t changed_passable = 0;  // of these, where edges open or shut
   std::vector<Chain> chains;
   std::vector<int> vertices;  // slots
   std::vector<Watch> watches;

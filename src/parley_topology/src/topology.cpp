@@ -131,7 +131,10 @@ LocalMap Topology::localMap(const Eigen::Vector2d& center, double size, double s
   return local;
 }
 
-const VisibilityGraph& Topology::graph() const { return parts_->builder.graph(); }
+const VisibilityGraph& Topology::graph() const {
+  parts_->builder.measureEdges(parts_->map);
+  return parts_->builder.graph();
+}
 std::vector<Contour> Topology::contours() const { return outlinesOf(parts_->map, kOwn); }
 std::vector<Contour> Topology::fusedContours() const { return outlinesOf(parts_->map, kFused); }
 

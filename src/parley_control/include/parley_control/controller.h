@@ -60,7 +60,8 @@ class Controller {
   MotionLimits limits_;
   std::optional<double> last_now_;  // [s]
   Twist2 last_command_;
-  std::optional<Pose2> T_odom_base_;     // now; goes on by the commands while odometry fails
+  std::optional<Odometry> present_;      // pose and twist now
+  double last_odometry_stamp_ = 0.0;     // [s]
   bool resting_ = false;                 // on a standing reference, within the tolerances
   std::optional<double> blocked_until_;  // [s] the last-moment stop is on at least until then
 };

@@ -49,12 +49,13 @@ struct LidarOptions {
   double track_acceleration = 2.0;  // [m/s^2]
 
   double moving_window = 0.8;         // [s]
-  double moving_displacement = 0.12;  // [m]
-  double moving_speed = 0.3;          // [m/s]
+  double moving_displacement = 0.08;  // [m]
+  double moving_speed = 0.2;          // [m/s]
   int moving_observations = 3;        // [-]
   int moving_evidence = 4;            // [-]
   double moving_margin = 0.12;        // [m]
-  double odometry_error = 0.02;       // [-]
+  double moving_resolution = 0.07;    // [m]
+  double odometry_error = 0.05;       // [-]
   double moving_hold = 3.0;           // [s]
 
   double undecided_time = 0.4;     // [s]
@@ -107,6 +108,7 @@ struct LidarOptions {
     v.integer("moving_observations", moving_observations, "-", 2, 100, "what moves was seen this often");
     v.integer("moving_evidence", moving_evidence, "-", 1, 100, "points on it in space seen through, then or now");
     v.number("moving_margin", moving_margin, "m", 0.02, 1.0, "a point is seen through if the view goes on this far");
+    v.number("moving_resolution", moving_resolution, "m", 0.01, 1.0, "no judgement where beams lie farther apart");
     v.number("odometry_error", odometry_error, "-", 0.0, 0.5, "odometry's error per metre and radian");
     v.number("moving_hold", moving_hold, "s", 0.0, 60.0, "what stopped counts as moving for so long");
     v.number("undecided_time", undecided_time, "s", 0.0, 5.0, "a new track is kept off the map for so long");

@@ -19,7 +19,7 @@ struct PlannerOptions {
   // Motion
   double time_step = 0.05;         // [s]
   double limit_share = 0.95;       // [-]
-  double margin_creeping = 0.03;   // [m]
+  double margin_creeping = 0.05;   // [m]
   double margin_per_speed = 0.04;  // [s]
   double creep_speed = 0.2;        // [m/s]
   double turn_on_spot = 1.2;       // [rad]
@@ -36,10 +36,10 @@ struct PlannerOptions {
   double sight_least_speed = 0.4;     // [m/s]
 
   // Getting unstuck
-  double stuck_time = 2.0;       // [s]
-  double margin_tight = 0.01;    // [m]
-  int narrow_iterations = 2000;  // [-]
-  int seed = 1;                  // [-]
+  double reverse_speed = 0.8;    // [m/s]
+  double stuck_time = 3.0;       // [s]
+  double margin_tight = 0.03;    // [m]
+  int narrow_iterations = 4000;  // [-]
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -68,9 +68,9 @@ struct PlannerOptions {
     v.number("sight_clearance", sight_clearance, "m", 0.0, 2.0, "distance from walls that robots nobody has seen keep");
     v.number("sight_least_speed", sight_least_speed, "m/s", 0.05, 10.0, "sight alone never makes the robot slower than this");
     v.number("stuck_time", stuck_time, "s", 0.5, 60.0, "without progress for this long, the next harder measure is tried");
+    v.number("reverse_speed", reverse_speed, "m/s", 0.05, 10.0, "highest speed backwards");
     v.number("margin_tight", margin_tight, "m", 0.0, 0.5, "distance kept when creeping after getting stuck");
     v.integer("narrow_iterations", narrow_iterations, "-", 0, 1000000, "bound of the search with headings");
-    v.integer("seed", seed, "-", 0, 1000000000, "of the random sampling in the search with headings");
   }
 };
 

@@ -14,8 +14,8 @@ struct Arguments {
   bool quiet = false;
   std::string scenario;
   std::string variant = "full";
-  std::vector<Override> overrides;  // in the order in which they apply
-  std::string config;               // folder, empty: the defaults
+  std::vector<Override> overrides;                   // in the order in which they apply
+  std::string config;                                // folder, empty: the defaults
   std::string json, trace, picture, bag, bag_robot;  // empty: not wanted
 };
 

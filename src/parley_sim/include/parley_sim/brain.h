@@ -21,9 +21,9 @@ constexpr std::array<const char*, 8> kStageNames{"lidar",      "map_fusion", "to
 struct BrainOutput {
   Twist2 twist;
   DriveState state = DriveState::kStopped;
-  std::vector<Payload> packets;  // to broadcast
+  std::vector<Payload> packets;                                                                          // to broadcast
   std::array<double, kStageNames.size()> stage_seconds{-1.0, -1.0, -1.0, -1.0, -1.0, -1.0, -1.0, -1.0};  // negative: did not run
-  int replans = 0;         // [-] since the start, as the two below
+  int replans = 0;  // [-] since the start, as the two below
   int route_switches = 0;
   int escapes = 0;
 };

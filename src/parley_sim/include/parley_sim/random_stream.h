@@ -13,9 +13,9 @@ class RandomStream {
  public:
   RandomStream(std::uint64_t seed, const std::string& robot, const std::string& purpose);
 
-  double uniform();                          // in [0, 1)
-  double uniform(double low, double high);   // in [low, high)
-  double normal();                           // mean 0, standard deviation 1
+  double uniform();                         // in [0, 1)
+  double uniform(double low, double high);  // in [low, high)
+  double normal();                          // mean 0, standard deviation 1
 
  private:
   std::mt19937_64 engine_;

@@ -19,8 +19,8 @@ struct Incident {
   double time = 0.0;  // [s]
   ContactKind kind = ContactKind::kStatic;
   std::size_t robot = 0;
-  std::size_t other = 0;  // robot or moving obstacle
-  bool touched = false;   // by a moving obstacle, while it stood: no fault of its own
+  std::size_t other = 0;                               // robot or moving obstacle
+  bool touched = false;                                // by a moving obstacle, while it stood: no fault of its own
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  // [m] of the robot
 };
 
@@ -28,10 +28,10 @@ struct Incident {
 struct RobotRecord {
   bool reached = false;
   bool killed = false;
-  double joined_at = 0.0;   // [s]
-  double time = 0.0;        // [s] from there to its arrival, or up to now
-  double length = 0.0;      // [m] driven until its arrival, or up to now
-  double stopped = 0.0;     // [s] stood until its arrival, or up to now
+  double joined_at = 0.0;                                          // [s]
+  double time = 0.0;                                               // [s] from there to its arrival, or up to now
+  double length = 0.0;                                             // [m] driven until its arrival, or up to now
+  double stopped = 0.0;                                            // [s] stood until its arrival, or up to now
   double min_clearance = std::numeric_limits<double>::infinity();  // [m] to anything it could hit, over the whole run
 };
 

@@ -85,9 +85,9 @@ enum class Judge { kTruth, kOdometry };
 
 /// A scenario file, all defaults filled in.
 struct Scenario {
-  std::string name;  // of the file
-  std::string file;  // as it was given
-  std::string map;   // path of the world's yaml
+  std::string name;       // of the file
+  std::string file;       // as it was given
+  std::string map;        // path of the world's yaml
   double duration = 0.0;  // [s]
   std::uint64_t seed = 1;
   double goal_tolerance = 0.3;  // [m]

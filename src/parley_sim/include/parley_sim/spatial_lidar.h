@@ -21,9 +21,9 @@ class SpatialLidar {
 
   /// A robot's motion over one physics step, and its attitude.
   struct Motion {
-    Pose2 from, to;               // T_world_base
-    double start = 0.0;           // [s]
-    double duration = 0.0;        // [s]
+    Pose2 from, to;         // T_world_base
+    double start = 0.0;     // [s]
+    double duration = 0.0;  // [s]
     Attitude::Angles attitude;
   };
 
@@ -39,9 +39,9 @@ class SpatialLidar {
   /// A ray in the world: along it the range is `1 / flat` times the distance over the floor.
   struct Ray {
     Eigen::Vector3d origin;
-    Eigen::Vector3d direction;      // unit vector
-    Eigen::Vector2d flat_direction; // unit vector
-    double flat;                    // [-] cosine of the elevation
+    Eigen::Vector3d direction;       // unit vector
+    Eigen::Vector2d flat_direction;  // unit vector
+    double flat;                     // [-] cosine of the elevation
   };
 
   Eigen::Vector3d nextDirection();

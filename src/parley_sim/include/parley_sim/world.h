@@ -22,9 +22,7 @@ class World {
   bool isSolid(const Eigen::Vector2d& point) const { return isSolid(frame_.cellOf(point)); }
 
   /// From a cell's centre to the nearest solid cell's centre, in cells; 0 in what is solid.
-  float cellGap(const Eigen::Vector2i& cell) const {
-    return frame_.contains(cell) ? gaps_[gapIndex(cell.x(), cell.y())] : 0.0F;
-  }
+  float cellGap(const Eigen::Vector2i& cell) const { return frame_.contains(cell) ? gaps_[gapIndex(cell.x(), cell.y())] : 0.0F; }
   /// A bound that is cheap: nothing solid is nearer to the point than this. [m]
   double freeRadius(const Eigen::Vector2d& point) const;
   /// Distance to the nearest solid square, exact where it is below `limit`, otherwise `limit`. [m]

@@ -35,6 +35,7 @@ struct Edge {
   double narrow_length = 0.0;      // [m] through narrow passages, weighted by how narrow (0 to 1)
   double tentative_length = 0.0;   // [m] within reach of outlines whose pose is not confirmed
   double cost = 0.0;               // [m] length with what is unknown, narrow or tentative made dearer
+  bool measured = false;           // all but the length is worked out when first needed
   Provenance provenance;           // of the less direct of its ends
 };
 
@@ -59,6 +60,7 @@ class VisibilityGraph {
   const Vertex& vertex(int slot) const { return vertices_[static_cast<std::size_t>(slot)]; }
   Vertex& vertex(int slot) { return vertices_[static_cast<std::size_t>(slot)]; }
   const std::vector<Link>& links(int slot) const { return links_[static_cast<std::size_t>(slot)]; }
+  int edgeSlotCount() const { return static_cast<int>(edges_.size()); }
   const Edge& edge(int slot) const { return edges_[static_cast<std::size_t>(slot)]; }
   Edge& edge(int slot) { return edges_[static_cast<std::size_t>(slot)]; }
 

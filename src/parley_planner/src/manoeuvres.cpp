@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "manoeuvres.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "narrow_search.h"
+#include "parley_geometry/polygon.h"
+
+namespace parley {
+
+namespace {
+
+constexpr double kStandingSpeed = 0.02;   // [m/s] [rad/s]
+constexpr double kSlowSpeed = 0.3;        // [m/s] slower than this, a turn on the spot may be called for
+constexpr double kDirectionReach = 0.5;   // [m] a path's first direction is that to a point so far along it
+constexpr double kTurnWhileMoving = 1.9;  // [rad] off the heading, a moving robot stops first
+constexpr double kWorthStarting = 0.04;    // [m] drives that get less far are not worth starting
+constexpr double kSqueezeReach = 1.2;     // [m] along the path, at least, to where the search for narrow places leads
+constexpr double kSqueezeMost = 3.0;      // [m] and at most
+
+MotionLimits shareOf(const MotionLimits& limits, double share) {
+  return {limits.speed, limits.turn_rate * share, limits.acceleration * share, limits.turn_acceleration * share};
+}
+
+double firstDirection(const Path& path) {
+  const Path fine = resampled(path, kDirectionReach);
+  const Eigen::Vector2d step = fine[1] - fine[0];
+  return std::atan2(step.y(), step.x());
+}
+
+bool isUseful(const std::optional<Proposal>& proposal) {
+  return proposal && (proposal->advance > kUsefulAdvance || proposal->end == DriveEnd::kPathEnd);
+}
+
+}  // namespace
+
+bool stands(const Twist2& twist) {
+  return std::abs(twist.speed) < kStandingSpeed && std::abs(twist.turn_rate) < kStandingSpeed;
+}
+
+Manoeuvres::Manoeuvres(const PlannerOptions& options, const Footprint& footprint, const MotionLimits& limits)
+    : options_(options),
+      footprint_(footprint),
+      generator_(footprint, shareOf(limits, options.limit_share), options.time_step) {}
+
+std::optional<Proposal> Manoeuvres::propose(const ManoeuvreTask& task) const {
+  const double off = std::abs(angleBetween(task.start.pose.yaw, firstDirection(task.path)));
+  const double speed = task.start.twist.speed;
+  if (speed < -kStandingSpeed) return off > 0.5 * kPi ? backOut(task) : std::nullopt;
+  if (speed > kSlowSpeed) return off < kTurnWhileMoving ? driveOn(task, task.start, false, task.path) : std::nullopt;
+  std::optional<Proposal> best;
+  if (off < options_.turn_on_spot) best = driveOn(task, task.start, false, task.path);
+  if (isUseful(best) || !stands(task.start.twist)) return best;
+  const auto consider = [&best](std::optional<Proposal> other) {
+    if (other && (!best || other->advance > best->advance + 0.5 * kUsefulAdvance)) best = std::move(other);
+  };
+  consider(turnAndDrive(task));
+  if (!isUseful(best) && off > 0.5 * kPi) consider(backOut(task));
+  if (best && best->advance < kWorthStarting && best->end != DriveEnd::kPathEnd) return std::nullopt;
+  return best;
+}
+
+std::optional<Proposal> Manoeuvres::driveOn(const ManoeuvreTask& task, const TrajectoryPoint& start, bool reverse,
+                                            const Path& path) const {
+  SmoothingOptions smoothing;
+  smoothing.push_distance = task.push_distance;
+  smoothing.twisting_weight = options_.twisting_weight;
+  smoothing.bending_weight = options_.bending_weight;
+  smoothing.iterations = options_.smoothing_iterations;
+  const PathStart entry{{start.pose.x, start.pose.y, wrapAngle(start.pose.yaw + (reverse ? kPi : 0.0))},
+                        std::abs(start.twist.speed),
+                        start.twist.turn_rate};
+  const ReferencePath smooth = smoothed(path, entry, task.scene.surroundings.obstacles(), smoothing);
+  const double start_s = smooth.project(start.pose.position(), 0.0, 1.0);
+  std::vector<double> sight;
+  if (task.sight_law && !reverse) sight = task.sight_law->bounds(smooth, start_s, start.twist.speed);
+  if (reverse) sight.assign(smooth.points().size(), options_.reverse_speed);
+  GeneratedDrive drive = generator_.along(smooth, start, reverse, task.scene, task.margins, sight);
+  if (drive.end == DriveEnd::kInfeasible) return std::nullopt;
+  return Proposal{SampledTrajectory(std::move(drive.drive.points)), smooth.points(), drive.end, drive.advance, 0.0};
+}
+
+std::optional<Proposal> Manoeuvres::turnAndDrive(const ManoeuvreTask& task) const {
+  std::vector<TrajectoryPoint> points =
+      generator_.turn(task.start, firstDirection(task.path), task.scene, task.margins);
+  if (points.empty()) return std::nullopt;
+  const double turned_at = points.back().time;
+  std::optional<Proposal> rest = driveOn(task, points.back(), false, task.path);
+  if (!rest) return std::nullopt;
+  const std::vector<TrajectoryPoint>& driven = rest->trajectory.points();
+  points.insert(points.end(), driven.begin() + 1, driven.end());
+  rest->trajectory = SampledTrajectory(std::move(points));
+  rest->busy_until = turned_at;
+  return rest;
+}
+
+std::optional<Proposal> Manoeuvres::backOut(const ManoeuvreTask& task) const {
+  // Back to the first place where there is room to turn.
+  const double room = footprint_.circumscribedRadius() + task.margins.creeping + 0.02;
+  Path back = resampled(task.path, 0.1);
+  for (std::size_t i = 3; i < back.size(); ++i) {
+    if (task.scene.surroundings.obstacles().at(back[i]) < room) continue;
+    back.resize(std::min(back.size(), i + 2));
+    break;
+  }
+  std::optional<Proposal> proposal = driveOn(task, task.start, true, back);
+  if (proposal) proposal->busy_until = proposal->trajectory.endTime();
+  return proposal;
+}
+
+std::optional<Proposal> Manoeuvres::squeeze(const ManoeuvreTask& task) const {
+  if (!stands(task.start.twist)) return std::nullopt;
+  // The target: where there is room for any heading, or as far as the bound.
+  const Path fine = resampled(task.path, 0.1);
+  const double room = footprint_.circumscribedRadius() + task.margins.creeping;
+  const auto most = std::min(fine.size() - 1, static_cast<std::size_t>(kSqueezeMost / 0.1));
+  std::size_t target = std::min(most, static_cast<std::size_t>(kSqueezeReach / 0.1));
+  while (target < most && task.scene.surroundings.obstacles().at(fine[target]) < room) ++target;
+  NarrowSearchOptions search;
+  search.expansions = options_.narrow_iterations;
+  search.clearance = task.margins.creeping;
+  TrajectoryPoint start = task.start;
+  start.twist = {};
+  std::vector<TrajectoryPoint> points = searchNarrow(start, fine[target], task.scene.surroundings, generator_.probe(),
+                                                     generator_.limits(), options_.time_step, search);
+  if (points.size() < 2) return std::nullopt;
+  const double until = points.back().time;
+  return Proposal{SampledTrajectory(std::move(points)), task.path, DriveEnd::kPathEnd, 0.1 * static_cast<double>(target),
+                  until};
+}
+
+}  // namespace parley

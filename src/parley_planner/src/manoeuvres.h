@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "drive_generator.h"
+#include "parley_planner/planner_options.h"
+#include "sight_law.h"
+
+namespace parley {
+
+/// A way to get on: trajectory, the path it follows and how far it gets.
+struct Proposal {
+  SampledTrajectory trajectory;
+  Path path;
+  DriveEnd end = DriveEnd::kInfeasible;
+  double advance = 0.0;     // [m] along the path
+  double busy_until = 0.0;  // [s] until then the manoeuvre is not to be interrupted
+};
+
+/// What is asked of a manoeuvre.
+struct ManoeuvreTask {
+  const Path& path;              // to follow, from where the robot is
+  const TrajectoryPoint& start;  // state it begins in
+  const DriveScene& scene;
+  Margins margins;
+  double push_distance;        // [m] that obstacles push the path away
+  const SightLaw* sight_law;   // null: does not matter
+};
+
+/// The motions by which a robot gets onto a path and along it: drive on, turn on the spot first, back out of where it cannot
+/// turn, or find its way among positions and headings.
+class Manoeuvres {
+ public:
+  Manoeuvres(const PlannerOptions& options, const Footprint& footprint, const MotionLimits& limits);
+
+  /// The simplest motion that gets somewhere, else the one that gets furthest, if any.
+  std::optional<Proposal> propose(const ManoeuvreTask& task) const;
+  /// From standing: a search with the exact footprint to a place further along the path.
+  std::optional<Proposal> squeeze(const ManoeuvreTask& task) const;
+
+ private:
+  std::optional<Proposal> driveOn(const ManoeuvreTask& task, const TrajectoryPoint& start, bool reverse,
+                                  const Path& path) const;
+  std::optional<Proposal> turnAndDrive(const ManoeuvreTask& task) const;
+  std::optional<Proposal> backOut(const ManoeuvreTask& task) const;
+
+  PlannerOptions options_;
+  Footprint footprint_;
+  DriveGenerator generator_;
+};
+
+/// A drive that gets less far is worth looking for another. [m]
+constexpr double kUsefulAdvance = 0.3;
+
+/// Slower than 2 cm/s and 0.02 rad/s.
+bool stands(const Twist2& twist);
+
+}  // namespace parley

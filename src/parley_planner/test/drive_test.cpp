@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From path to motion: speed_profile, path_follower, drive_generator, narrow_search, progress_watch, margins.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "drive_generator.h"
+#include "narrow_search.h"
+#include "progress_watch.h"
+#include "scenes.h"
+
+namespace parley {
+namespace {
+
+constexpr double kStep = 0.05;  // [s]
+
+ReferencePath line(double length) { return ReferencePath(resampled({{2.0, 5.0}, {2.0 + length, 5.0}}, 0.1)); }
+
+TEST(Margins, SpeedAndClearanceAreInverse) {
+  const Margins margins{0.05, 0.04, 0.2};
+  EXPECT_EQ(margins.at(0.0), 0.05);
+  EXPECT_NEAR(margins.at(-2.0), 0.122, 1e-9);
+  EXPECT_EQ(margins.speedFor(0.04), 0.0);
+  EXPECT_NEAR(margins.speedFor(margins.at(1.3)), 1.3, 1e-9);
+}
+
+TEST(SpeedProfile, BrakesForCurvesAndStops) {
+  Path points;
+  for (int i = 0; i <= 60; ++i) points.push_back({0.1 * i, 0.0});
+  for (int i = 1; i <= 10; ++i) points.push_back(integrateTwist({6.0, 0.0, 0.0}, 1.0, 1.5, 0.1 * i).position());
+  SpeedProfile profile(ReferencePath(points), robotLimits());
+  profile.lowerBetween(2.0, 2.2, 0.5);
+  profile.stopAt(6.5);
+  profile.spread();
+  EXPECT_NEAR(profile.at(2.1), 0.5, 1e-6);
+  EXPECT_NEAR(profile.at(1.5), std::sqrt(0.25 + 2.0 * 2.0 * 0.5), 0.02);
+  EXPECT_LT(profile.at(6.3), 1.5708 / 1.5 + 0.01);
+  EXPECT_EQ(profile.at(6.6), 0.0);
+  for (double s = 0.0; s < 6.4; s += 0.05) EXPECT_LE(profile.at(s), std::sqrt(2.0 * 2.0 * (6.5 - s)) + 1e-9);
+}
+
+TEST(PathFollower, DrivesFastAndWithinLimits) {
+  const ReferencePath path = line(6.0);
+  SpeedProfile profile(path, robotLimits());
+  profile.spread();
+  const PathDrive drive = followPath(path, profile, {1.0, {2.0, 5.0, 0.0}, {}}, false, robotLimits(), kStep);
+  EXPECT_EQ(motionFlaw(drive.points, robotLimits()), "");
+  EXPECT_NEAR(drive.points.back().pose.x, 8.0, 0.03);
+  EXPECT_LT(drive.points.back().time - 1.0, 4.2);  // 4.0 s is the least
+}
+
+TEST(PathFollower, RandomStartsObeyLimitsAndConverge) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (int i = 0; i < 200; ++i) {
+    const ReferencePath path = line(7.0);
+    SpeedProfile profile(path, robotLimits());
+    profile.lowerBetween(3.0, 4.0, 1.0 + 0.9 * unit(random));
+    profile.spread();
+    const TrajectoryPoint start{0.0, {2.2, 5.0 + 0.15 * unit(random), 0.5 * unit(random)},
+                                {1.0 + 0.8 * unit(random), 0.8 * unit(random)}};
+    const PathDrive drive = followPath(path, profile, start, false, robotLimits(), kStep);
+    EXPECT_EQ(motionFlaw(drive.points, robotLimits()), "") << "case " << i;
+    EXPECT_NEAR(drive.points.back().pose.y, 5.0, 0.02) << "case " << i;
+  }
+}
+
+TEST(PathFollower, Reverses) {
+  const ReferencePath path = line(3.0);
+  SpeedProfile profile(path, robotLimits());
+  profile.spread();
+  const PathDrive drive = followPath(path, profile, {0.0, {2.0, 5.0, -kPi + 0.1}, {}}, true, robotLimits(), kStep);
+  EXPECT_EQ(motionFlaw(drive.points, robotLimits()), "");
+  EXPECT_NEAR(drive.points.back().pose.x, 5.0, 0.03);
+  EXPECT_NEAR(std::abs(drive.points.back().pose.yaw), kPi, 0.02);
+  EXPECT_LT(drive.points[10].twist.speed, 0.0);
+}
+
+TEST(TurnOnSpot, IsExactForAnyAngle) {
+  for (const double yaw : {0.001, 0.3, -1.0, 2.9, -3.1}) {
+    const auto points = turnOnSpot({3.0, {1.0, 2.0, 0.4}, {}}, wrapAngle(0.4 + yaw), robotLimits(), kStep);
+    EXPECT_EQ(motionFlaw(points, robotLimits()), "") << yaw;
+    EXPECT_NEAR(angleBetween(points.back().pose.yaw, 0.4 + yaw), 0.0, 1e-9);
+    EXPECT_NEAR(points.back().time - 3.0, std::abs(yaw) < 0.616 ? 2.0 * std::sqrt(std::abs(yaw) / 4.0)
+                                                                : std::abs(yaw) / 1.5708 + 1.5708 / 4.0, 1e-6);
+  }
+}
+
+TEST(DriveArc, FollowsTheCircleBothWays) {
+  for (const double length : {1.0, -0.6, 0.05}) {
+    for (const double curvature : {0.0, 1.7, -1.7}) {
+      const auto points = driveArc({0.0, {1.0, 2.0, 0.4}, {}}, curvature, length, 0.5, robotLimits(), kStep);
+      EXPECT_EQ(motionFlaw(points, robotLimits()), "");
+      const Pose2 end = integrateTwist({1.0, 2.0, 0.4}, length, length * curvature, 1.0);
+      EXPECT_NEAR((points.back().pose.position() - end.position()).norm(), 0.0, 1e-6);
+    }
+  }
+}
+
+class GeneratorTest : public testing::Test {
+ protected:
+  GeneratedDrive generate(const LocalMap& map, const Path& way, const TrajectoryPoint& start,
+                          const std::vector<TrackedObject>& tracks = {}) {
+    const Surroundings surroundings(map, {}, {}, tracks);
+    const ReferencePath path(resampled(way, 0.1));
+    return generator_.along(path, start, false, {surroundings, tracks, 1.5, 0.1}, {0.05, 0.04, 0.2}, {});
+  }
+  DriveGenerator generator_{robotFootprint(), robotLimits(), kStep};
+};
+
+TEST_F(GeneratorTest, StopsBeforeWalls) {
+  World world(10, 10, false);
+  world.fill(7.0, 0.0, 7.2, 10.0, true);
+  const GeneratedDrive drive = generate(seenMap(world), {{2.0, 5.0}, {8.0, 5.0}}, {0.0, {2.0, 5.0, 0.0}, {1.0, 0.0}});
+  EXPECT_EQ(drive.end, DriveEnd::kObstacle);
+  EXPECT_EQ(motionFlaw(drive.drive.points, robotLimits()), "");
+  EXPECT_LT(drive.drive.points.back().pose.x + 0.4, 6.98);
+  EXPECT_GT(drive.drive.points.back().pose.x + 0.4, 6.80);
+}
+
+TEST_F(GeneratorTest, StopsBeforeTheUnseen) {
+  LocalMap map = seenMap(World(10, 10, false));
+  setCells(&map, 6.0, 0.0, 10.0, 10.0, CellState::kUnknown);
+  const GeneratedDrive drive = generate(map, {{2.0, 5.0}, {8.0, 5.0}}, {0.0, {2.0, 5.0, 0.0}, {}});
+  EXPECT_EQ(drive.end, DriveEnd::kUnseen);
+  EXPECT_LE(drive.drive.points.back().pose.x + 0.4, 6.03);
+  EXPECT_GT(drive.advance, 3.4);
+}
+
+TEST_F(GeneratorTest, SlowsDownWhereItIsNarrow) {
+  World world(10, 10, false);
+  world.fill(4.0, 0.0, 5.0, 4.7, true);
+  world.fill(4.0, 5.3, 5.0, 10.0, true);
+  const GeneratedDrive drive = generate(seenMap(world), {{2.0, 5.0}, {8.0, 5.0}}, {0.0, {2.0, 5.0, 0.0}, {}});
+  EXPECT_EQ(drive.end, DriveEnd::kPathEnd);
+  double fastest = 0.0;
+  for (const TrajectoryPoint& p : drive.drive.points) {
+    if (p.pose.x > 3.8 && p.pose.x < 5.2) fastest = std::max(fastest, p.twist.speed);
+  }
+  EXPECT_LT(fastest, 1.95);
+}
+
+TEST_F(GeneratorTest, StopsForWhatWillCross) {
+  TrackedObject track;
+  track.position = {5.0, 7.0};
+  track.velocity = {0.0, -1.5};
+  track.radius = 0.3;
+  track.moving = true;
+  const LocalMap map = seenMap(World(10, 10, false));
+  const TrajectoryPoint start{0.0, {3.0, 5.0, 0.0}, {1.5, 0.0}};
+  EXPECT_EQ(generate(map, {{3.0, 5.0}, {8.0, 5.0}}, start, {track}).end, DriveEnd::kTrack);
+  track.moving = false;
+  EXPECT_EQ(generate(map, {{3.0, 5.0}, {8.0, 5.0}}, start, {track}).end, DriveEnd::kPathEnd);
+}
+
+TEST_F(GeneratorTest, SaysWhenItCannotStopAnyMore) {
+  World world(10, 10, false);
+  world.fill(3.0, 0.0, 3.2, 10.0, true);
+  const GeneratedDrive drive = generate(seenMap(world), {{2.0, 5.0}, {8.0, 5.0}}, {0.0, {2.0, 5.0, 0.0}, {2.0, 0.0}});
+  EXPECT_EQ(drive.end, DriveEnd::kInfeasible);
+}
+
+TEST_F(GeneratorTest, TurnsOnlyWhereItsCornersPass) {
+  World world(10, 10, false);
+  world.fill(5.25, 5.25, 5.35, 5.35, true);  // in the way of the left front corner
+  const Surroundings surroundings(seenMap(world), {}, {}, {});
+  const std::vector<TrackedObject> tracks;
+  const DriveScene scene{surroundings, tracks, 1.5, 0.1};
+  const TrajectoryPoint start{0.0, {5.0, 5.0, 0.0}, {}};
+  EXPECT_TRUE(generator_.turn(start, 1.6, scene, {0.02, 0.04, 0.2}).empty());
+  EXPECT_FALSE(generator_.turn(start, -0.8, scene, {0.02, 0.04, 0.2}).empty());
+}
+
+TEST(NarrowSearch, TurnsBeforeItEnters) {
+  // A slot 0.6 m wide leads up from a chamber in which the robot stands across.
+  World world(10, 10, true);
+  world.fill(4.0, 4.0, 6.0, 5.1, false);
+  world.fill(4.7, 5.0, 5.3, 9.0, false);
+  const Surroundings surroundings(seenMap(world), {}, {}, {});
+  const FootprintProbe probe(robotFootprint());
+  const TrajectoryPoint start{0.0, {4.6, 4.5, 0.0}, {}};
+  const auto points = searchNarrow(start, {5.0, 7.5}, surroundings, probe, robotLimits(), kStep, {40000, 0.04, 0.5});
+  ASSERT_FALSE(points.empty());
+  EXPECT_EQ(motionFlaw(points, robotLimits()), "");
+  EXPECT_LT((points.back().pose.position() - Eigen::Vector2d(5.0, 7.5)).norm(), kTargetRadius + 0.01);
+  for (const TrajectoryPoint& p : points) EXPECT_FALSE(world.touches(robotFootprint(), p.pose));
+  EXPECT_TRUE(searchNarrow(start, {1.0, 1.0}, surroundings, probe, robotLimits(), kStep, {40000, 0.04, 0.5}).empty());
+  EXPECT_TRUE(searchNarrow(start, {5.0, 7.5}, surroundings, probe, robotLimits(), kStep, {2, 0.04, 0.5}).empty());
+}
+
+TEST(ProgressWatch, CountsTimeInOnePlace) {
+  ProgressWatch watch(2.0);
+  EXPECT_EQ(watch.update({0.0, 0.0}, 0.0), 0);
+  EXPECT_EQ(watch.update({0.1, 0.0}, 2.1), 1);
+  EXPECT_EQ(watch.update({0.6, 0.0}, 2.5), 1);  // got on a little: the measure is kept
+  EXPECT_EQ(watch.update({0.2, 0.0}, 4.5), 2);
+  EXPECT_EQ(watch.update({1.2, 0.0}, 5.0), 0);
+  EXPECT_EQ(watch.update({1.7, 0.0}, 6.9), 0);
+  watch.reset();
+  EXPECT_EQ(watch.level(), 0);
+}
+
+}  // namespace
+}  // namespace parley
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "parley_planner/planner.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "scenes.h"
+
+namespace parley {
+namespace {
+
+/// One robot at (3, 5) in a free room of 10 x 10 m with a goal at (8, 5).
+class PlannerTest : public testing::Test {
+ protected:
+  PlannerTest() {
+    route_.points = {{3.0, 5.0}, {8.0, 5.0}};
+    route_.verdict = RouteVerdict::kThroughKnown;
+    odometry_.pose = {3.0, 5.0, 0.0};
+    std::mt19937 random(1);
+    scan_ = castScan(World(10, 10, false), {3.0, 5.0, 0.0}, 0.0, 0.0, random);
+  }
+  PlanResult plan(double now) {
+    odometry_.stamp = now;
+    return planner_.plan({now, now + 0.05, odometry_, map_, scan_, odometry_.pose, tracks_, route_, goal_, 0.3, committed_});
+  }
+  Planner planner_{PlannerOptions(), robotFootprint(), robotLimits()};
+  LocalMap map_ = seenMap(World(10, 10, false));
+  ObstacleScan scan_;
+  std::vector<TrackedObject> tracks_;
+  Route route_;
+  Odometry odometry_;
+  Eigen::Vector2d goal_{8.0, 5.0};
+  SampledTrajectory committed_;
+};
+
+TEST_F(PlannerTest, DrivesToTheGoal) {
+  const PlanResult result = plan(0.0);
+  EXPECT_TRUE(result.status.is(PlanCode::kDriving));
+  EXPECT_FALSE(result.keep_committed);
+  EXPECT_EQ(motionFlaw(result.trajectory.points(), robotLimits()), "");
+  EXPECT_NEAR(result.trajectory.startTime(), 0.05, 1e-9);
+  EXPECT_NEAR(result.local_goal.x(), 7.5, 0.11);
+  EXPECT_GT(result.path.size(), 10U);
+  EXPECT_GT(result.speed_bound, 0.3);
+}
+
+TEST_F(PlannerTest, KeepsWhatIsCommittedBetweenPlans) {
+  committed_ = plan(0.0).trajectory;
+  EXPECT_TRUE(plan(0.02).keep_committed);
+}
+
+TEST_F(PlannerTest, BrakesWhenTheWayIsClosed) {
+  committed_ = plan(0.0).trajectory;
+  const TrajectoryPoint there = committed_.at(1.0);
+  odometry_.pose = there.pose;
+  odometry_.twist = there.twist;
+  setCells(&map_, there.pose.x + 0.7, 0.0, there.pose.x + 0.9, 10.0, CellState::kOccupied);
+  const PlanResult result = plan(1.0);
+  EXPECT_TRUE(result.status.is(PlanCode::kBlocked));
+  ASSERT_FALSE(result.keep_committed);
+  EXPECT_EQ(motionFlaw(result.trajectory.points(), robotLimits()), "");
+  EXPECT_LT(result.trajectory.duration(), 1.1);
+  // Level-triggered: asked again while still moving, it brakes again.
+  committed_ = result.trajectory;
+  odometry_.pose = committed_.at(1.1).pose;
+  odometry_.twist = committed_.at(1.1).twist;
+  const PlanResult again = plan(1.1);
+  ASSERT_FALSE(again.keep_committed);
+  EXPECT_LT(again.trajectory.points()[2].twist.speed, odometry_.twist.speed);
+}
+
+TEST_F(PlannerTest, SaysWhatBlocks) {
+  for (const double side : {4.0, 6.0}) setCells(&map_, 0.0, side - 0.1, 10.0, side + 0.1, CellState::kOccupied);
+  setCells(&map_, 4.0, 4.0, 4.2, 6.0, CellState::kOccupied);
+  setCells(&map_, 2.0, 4.0, 2.2, 6.0, CellState::kOccupied);
+  route_.points = {{3.0, 5.0}, {8.0, 5.0}};
+  committed_ = SampledTrajectory::standing(odometry_.pose, 0.0);
+  PlanResult result;
+  const auto live = [&](int first, int last) {
+    for (int k = first; k < last; ++k) {
+      odometry_.pose = committed_.at(0.1 * k).pose;
+      odometry_.twist = committed_.at(0.1 * k).twist;
+      result = plan(0.1 * k);
+      if (!result.keep_committed) committed_ = result.trajectory;
+    }
+  };
+  live(1, 100);
+  EXPECT_TRUE(result.status.is(PlanCode::kBlocked));
+  EXPECT_EQ(result.status.text, "blocked");
+  TrackedObject track;
+  track.position = {4.1, 5.0};
+  track.radius = 0.4;
+  tracks_ = {track};
+  live(100, 110);
+  EXPECT_TRUE(result.status.is(PlanCode::kBlocked));
+  EXPECT_EQ(result.status.text, "blocked by something that moved");
+}
+
+TEST_F(PlannerTest, ArrivesWithHysteresis) {
+  odometry_.pose = {7.9, 5.0, 0.0};
+  EXPECT_TRUE(plan(0.0).status.is(PlanCode::kArrived));
+  odometry_.pose = {7.75, 5.0, 0.0};
+  EXPECT_TRUE(plan(0.1).status.is(PlanCode::kArrived));
+  odometry_.pose = {7.5, 5.0, 0.0};
+  EXPECT_TRUE(plan(0.2).status.is(PlanCode::kDriving));
+  odometry_.pose = {7.9, 5.0, 0.0};
+  EXPECT_TRUE(plan(0.3).status.is(PlanCode::kArrived));
+  goal_ = {5.0, 5.0};
+  route_.points.back() = goal_;
+  EXPECT_TRUE(plan(0.4).status.is(PlanCode::kDriving));
+}
+
+TEST_F(PlannerTest, WithoutARouteWhatIsCommittedStands) {
+  route_ = {};
+  EXPECT_TRUE(plan(0.0).status.is(PlanCode::kNoRoute));
+  route_.points = {{3.0, 5.0}, {8.0, 5.0}};
+  committed_ = plan(0.1).trajectory;
+  route_.points.clear();
+  const PlanResult result = plan(0.2);
+  EXPECT_TRUE(result.status.is(PlanCode::kNoRoute));
+  EXPECT_TRUE(result.keep_committed);
+}
+
+TEST_F(PlannerTest, TurnsOnTheSpotFirst) {
+  odometry_.pose.yaw = 2.8;
+  const PlanResult result = plan(0.0);
+  ASSERT_FALSE(result.keep_committed);
+  const auto& points = result.trajectory.points();
+  EXPECT_EQ(motionFlaw(points, robotLimits()), "");
+  EXPECT_EQ(points[10].twist.speed, 0.0);
+  EXPECT_GT(std::abs(points[10].twist.turn_rate), 1.0);
+  // While it turns it is not interrupted.
+  committed_ = result.trajectory;
+  odometry_.pose = committed_.at(1.0).pose;
+  odometry_.twist = committed_.at(1.0).twist;
+  EXPECT_TRUE(plan(1.0).keep_committed);
+}
+
+TEST_F(PlannerTest, StartsFromTheOdometryWhenItIsOffTheTrajectory) {
+  committed_ = plan(0.0).trajectory;
+  odometry_.pose = {3.2, 5.5, 0.0};
+  odometry_.twist = {0.3, 0.0};
+  const PlanResult result = plan(1.0);
+  ASSERT_FALSE(result.keep_committed);
+  EXPECT_NEAR(result.trajectory.points().front().pose.y, 5.5, 0.01);
+}
+
+TEST_F(PlannerTest, BadInputIsNotDrivenOn) {
+  odometry_.pose.x = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(plan(0.0).status.is(PlanCode::kNoPath));
+  odometry_.pose.x = 3.0;
+  map_.cells.pop_back();
+  EXPECT_TRUE(plan(0.1).status.is(PlanCode::kNoPath));
+  map_ = {};
+  EXPECT_TRUE(plan(0.2).keep_committed);
+}
+
+TEST_F(PlannerTest, TimeGoingBackStartsAfresh) {
+  committed_ = plan(10.0).trajectory;
+  committed_ = {};
+  EXPECT_FALSE(plan(0.0).keep_committed);
+  planner_.reset();
+  EXPECT_FALSE(plan(0.0).keep_committed);
+}
+
+TEST(PlannerConstruction, RefusesBadOptions) {
+  PlannerOptions options;
+  options.look_ahead = -1.0;
+  EXPECT_THROW(Planner(options, robotFootprint(), robotLimits()), std::invalid_argument);
+  EXPECT_THROW(Planner({}, Footprint{}, robotLimits()), std::invalid_argument);
+  EXPECT_THROW(Planner({}, robotFootprint(), MotionLimits{}), std::invalid_argument);
+  Planner moved = Planner({}, robotFootprint(), robotLimits());
+  moved = Planner({}, robotFootprint(), robotLimits());
+  moved.reset();
+}
+
+TEST(PlannerConfig, FileEqualsDefaults) {
+  std::ifstream file(PARLEY_PLANNER_CONFIG);
+  ASSERT_TRUE(file) << PARLEY_PLANNER_CONFIG;
+  OptionValues values;
+  for (std::string line; std::getline(file, line);) {
+    line = line.substr(0, line.find('#'));
+    const std::size_t colon = line.find(':');
+    if (colon == std::string::npos) continue;
+    std::istringstream text(line.substr(colon + 1));
+    std::string value;
+    text >> value;
+    const std::string key = line.substr(0, colon);
+    if (value == "true" || value == "false") {
+      values[key] = value == "true";
+    } else if (value.find('.') == std::string::npos) {
+      values[key] = std::stol(value);
+    } else {
+      values[key] = std::stod(value);
+    }
+  }
+  PlannerOptions loaded;
+  EXPECT_TRUE(loadOptions(loaded, values, "planner.yaml").empty());
+  EXPECT_EQ(valuesOf(listOptions(loaded)), valuesOf(listOptions(PlannerOptions())));
+  EXPECT_EQ(values.size(), listOptions(PlannerOptions()).size());
+}
+
+TEST(PlannerReadme, ListsTheOptions) {
+  std::ifstream file(PARLEY_PLANNER_README);
+  std::stringstream text;
+  text << file.rdbuf();
+  EXPECT_NE(text.str().find(optionTable(listOptions(PlannerOptions()))), std::string::npos);
+}
+
+}  // namespace
+}  // namespace parley
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

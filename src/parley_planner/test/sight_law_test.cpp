@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sight_law.h"
+
+#include <gtest/gtest.h>
+
+#include "scenes.h"
+
+namespace parley {
+namespace {
+
+class SightLawTest : public testing::Test {
+ protected:
+  void look(const World& world, const Pose2& pose, double now, const std::vector<TrackedObject>& tracks = {}) {
+    std::mt19937 random(1);
+    const ObstacleScan scan = castScan(world, pose, now, 0.0, random);
+    const Surroundings surroundings(seenMap(world), scan, pose, tracks);
+    law_.observe(surroundings, scan, pose, tracks, pose, now);
+  }
+  double speedAt(const Pose2& pose) const { return law_.speedFor(law_.gapAt(pose.position())); }
+  SightLaw law_{{}, robotLimits()};
+};
+
+TEST_F(SightLawTest, BothCanStop) {
+  for (double gap = 0.9; gap < 5.0; gap += 0.1) {
+    const double v = law_.speedFor(gap), t = 0.2, a = 2.0;
+    if (v < 0.31) continue;
+    EXPECT_NEAR(2.0 * (v * t + v * v / (2.0 * a)) + 0.8, gap, 1e-6);
+  }
+  EXPECT_NEAR(law_.speedFor(0.0), 0.3, 1e-9);
+}
+
+TEST_F(SightLawTest, StraightCorridorIsFast) {
+  World world(10, 10, true);
+  world.fill(0, 4.2, 10, 5.8, false);
+  look(world, {3.0, 5.0, 0.0}, 0.0);
+  EXPECT_GT(speedAt({3.0, 5.0, 0.0}), 1.9);
+}
+
+TEST_F(SightLawTest, BlindCornerIsSlower) {
+  World world(10, 10, true);
+  world.fill(0, 4.2, 6, 5.8, false);
+  world.fill(4.4, 4.2, 6, 10, false);
+  const Pose2 pose{3.6, 4.8, 0.0};
+  look(world, pose, 0.0);
+  EXPECT_LT(speedAt(pose), 1.95);
+  EXPECT_GT(speedAt(pose), 1.2);
+  const ReferencePath path(resampled({{3.6, 4.8}, {5.2, 4.8}, {5.2, 9.0}}, 0.1));
+  const std::vector<double> bounds = law_.bounds(path, 0.0, 1.5);
+  ASSERT_EQ(bounds.size(), path.points().size());
+  EXPECT_LT(bounds.back(), bounds.front() + 1e-9);  // what is hidden lies ahead
+}
+
+TEST_F(SightLawTest, NothingHidesWhereNobodyFits) {
+  World world(10, 10, true);
+  world.fill(1, 3.5, 5, 6.5, false);
+  world.fill(5, 4.9, 9, 5.1, false);  // a crack
+  look(world, {3.0, 5.0, 0.0}, 0.0);
+  EXPECT_GE(speedAt({3.0, 5.0, 0.0}), 2.0);
+}
+
+TEST_F(SightLawTest, RemembersWhatItHasSeenForAWhile) {
+  World open(10, 10, true);
+  open.fill(1, 1, 9, 5, false);
+  open.fill(1, 5, 9, 9, false);
+  look(open, {5.0, 5.0, 0.0}, 0.0);
+  EXPECT_FALSE(law_.possibleAt({5.0, 7.0}));
+  World closed = open;
+  closed.fill(0, 4.0, 10, 4.2, true);  // now a wall hides what lies above it
+  look(closed, {5.0, 3.0, 0.0}, 0.1);
+  EXPECT_FALSE(law_.possibleAt({5.0, 7.0}));
+  for (int k = 2; k < 40; ++k) look(closed, {5.0, 3.0, 0.0}, 0.1 * k);
+  EXPECT_TRUE(law_.possibleAt({5.0, 7.0}));
+  law_.reset();
+  EXPECT_TRUE(law_.possibleAt({5.0, 2.0}));
+  EXPECT_EQ(law_.gapAt({5.0, 2.0}), 0.0);
+}
+
+TEST_F(SightLawTest, ApproachingTracksCount) {
+  World world(10, 10, true);
+  world.fill(0, 3, 10, 7, false);
+  TrackedObject track;
+  track.position = {5.0, 5.0};
+  track.velocity = {-1.5, 0.0};
+  track.radius = 0.3;
+  track.moving = true;
+  track.observations = 9;
+  look(world, {3.0, 5.0, 0.0}, 0.0, {track});
+  const double approached = speedAt({3.0, 5.0, 0.0});
+  EXPECT_LT(approached, 1.5);
+  track.velocity = {1.5, 0.0};
+  law_.reset();
+  look(world, {3.0, 5.0, 0.0}, 0.0, {track});
+  EXPECT_GT(speedAt({3.0, 5.0, 0.0}), approached + 0.2);
+}
+
+}  // namespace
+}  // namespace parley
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
