@@ -44,10 +44,12 @@ inline ObstacleScan scanOf(const std::vector<Wall>& walls, const Pose2& pose, do
   scan.range_max = 4.0;
   scan.ranges.assign(720, std::numeric_limits<float>::infinity());
   scan.transient.assign(720, false);
-  for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
-    const Eigen::Vector2d end = pose * scan.pointAt(i, scan.range_max);
-    for (const Wall& wall : walls) {
-      const auto hit = segmentIntersection(pose.position(), end, wall.from, wall.to);
+  std::vector<Eigen::Vector2d> ends;
+  for (std::size_t i = 0; i < scan.ranges.size(); ++i) ends.push_back(pose * scan.pointAt(i, scan.range_max));
+  for (const Wall& wall : walls) {
+    if (pointSegmentDistance(pose.position(), wall.from, wall.to) > scan.range_max) continue;
+    for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
+      const auto hit = segmentIntersection(pose.position(), ends[i], wall.from, wall.to);
       if (hit) scan.ranges[i] = std::min(scan.ranges[i], static_cast<float>((*hit - pose.position()).norm()));
     }
   }

@@ -15,7 +15,7 @@ struct Look {
   int bin = 0;
   double range = 0.0;  // [m] range_max if free
   bool hit = false;
-  bool gap = false;    // too much unseen between it and the one before
+  bool gap = false;  // too much unseen between it and the one before
 };
 
 using Looks = std::vector<Look>;
@@ -110,8 +110,7 @@ std::vector<BlobShape> findBlobs(const BinnedScan& scan, const LidarOptions& opt
   for (std::size_t first = start, last; first < start + count; first = last + 1) {
     for (last = first; last + 1 < start + count && isJoined(at(last), at(last + 1), options.blob_jump);) ++last;
     const Look &before = at(first + count - 1), &after = at(last + 1);
-    const bool stands_off = at(first).hit && !at(first).gap && !after.gap &&
-                            before.range > at(first).range + options.blob_jump &&
+    const bool stands_off = at(first).hit && !at(first).gap && !after.gap && before.range > at(first).range + options.blob_jump &&
                             after.range > at(last).range + options.blob_jump;
     if (!stands_off || static_cast<int>(last - first) + 1 < options.blob_min_beams) continue;
     Looks group;

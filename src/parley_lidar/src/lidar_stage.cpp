@@ -72,8 +72,8 @@ class LidarStage::Pipeline {
 
  private:
   template <class Binning>
-  LidarResult process(double start, double duration, const OdometryBuffer& odometry,
-                      const std::vector<KnownTeammate>& teammates, const Binning& bin) {
+  LidarResult process(double start, double duration, const OdometryBuffer& odometry, const std::vector<KnownTeammate>& teammates,
+                      const Binning& bin) {
     const double stamp = start + duration;
     if (!std::isfinite(stamp)) return failure(LidarCode::kBadStamp, "the stamp is not finite");
     if (stamp < last_stamp_ - kTimeReset) reset();
@@ -88,8 +88,8 @@ class LidarStage::Pipeline {
 
   LidarResult finish(const BinnedScan& measured, double stamp, const Pose2& T_odom_base,
                      const std::vector<KnownTeammate>& teammates) {
-    const BinnedScan clean = withoutOutliers(measured, T_odom_base, history_, stamp, options_.outlier_distance,
-                                             options_.outlier_memory);
+    const BinnedScan clean =
+        withoutOutliers(measured, T_odom_base, history_, stamp, options_.outlier_distance, options_.outlier_memory);
     history_.add(measured, stamp, T_odom_base);
     const std::vector<BlobShape> blobs = findBlobs(clean, options_);
     follow(blobs, stamp, T_odom_base);

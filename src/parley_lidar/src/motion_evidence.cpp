@@ -23,8 +23,7 @@ OdometryError errorBetween(const PastScan& a, const PastScan& b, double share) {
   return {share * travel, share * std::abs(angleBetween(a.T_odom_base.yaw, b.T_odom_base.yaw))};
 }
 
-bool isSeenThrough(const Eigen::Vector2d& point, const PastScan& scan, const OdometryError& error,
-                   const LidarOptions& options) {
+bool isSeenThrough(const Eigen::Vector2d& point, const PastScan& scan, const OdometryError& error, const LidarOptions& options) {
   const double beam = scan.beam_width * 2.0 * kPi / static_cast<double>(scan.ranges.size());
   const double distance = scan.distanceTo(point);
   const double beyond = distance + options.moving_margin + error.distance;
@@ -42,9 +41,8 @@ int motionEvidence(const Sighting& before, const Sighting& now, const ScanHistor
   const PastScan& newest = scans.back();
   const OdometryError error = errorBetween(*then, newest, options.odometry_error);
   const auto count = [&](const std::vector<Eigen::Vector2d>& points, const PastScan& scan) {
-    return static_cast<int>(std::count_if(points.begin(), points.end(), [&](const Eigen::Vector2d& point) {
-      return isSeenThrough(point, scan, error, options);
-    }));
+    return static_cast<int>(std::count_if(
+        points.begin(), points.end(), [&](const Eigen::Vector2d& point) { return isSeenThrough(point, scan, error, options); }));
   };
   int new_points = count(now.points, *then);
   // Something thin can slip between the beams of one scan, less likely of two.

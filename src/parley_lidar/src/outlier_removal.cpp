@@ -33,15 +33,14 @@ bool hasCompany(const BinnedScan& scan, const BearingBins& bins, int bin, double
 }
 
 bool wasSeenBefore(const Eigen::Vector2d& p_odom, const ScanHistory& history, double oldest, double distance) {
-  return std::any_of(history.scans().begin(), history.scans().end(), [&](const PastScan& past) {
-    return past.stamp >= oldest && past.hasReturnNear(p_odom, distance);
-  });
+  return std::any_of(history.scans().begin(), history.scans().end(),
+                     [&](const PastScan& past) { return past.stamp >= oldest && past.hasReturnNear(p_odom, distance); });
 }
 
 }  // namespace
 
-BinnedScan withoutOutliers(BinnedScan scan, const Pose2& T_odom_base, const ScanHistory& history, double stamp,
-                           double distance, double memory) {
+BinnedScan withoutOutliers(BinnedScan scan, const Pose2& T_odom_base, const ScanHistory& history, double stamp, double distance,
+                           double memory) {
   const BearingBins bins(static_cast<int>(scan.ranges.size()));
   std::vector<int> alone;
   for (int bin = 0; bin < bins.count(); ++bin) {

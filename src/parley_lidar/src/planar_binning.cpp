@@ -66,13 +66,13 @@ PlanarBinning::Beam PlanarBinning::beamAt(double angle) const {
   const Eigen::Vector2d direction(std::cos(bearing), std::sin(bearing));
   const Eigen::Vector3d direction_lidar(std::cos(angle), std::sin(angle), 0.0);
   const double self = rangeInside(footprint_, options_.self_margin, {mount_.x, mount_.y}, direction);
-  return {direction_lidar.cast<float>(), direction.cast<float>(), static_cast<float>(self),
-          bearing, binsOfBeam(bins_, bearing, std::abs(angle_increment_))};
+  return {direction_lidar.cast<float>(), direction.cast<float>(), static_cast<float>(self), bearing,
+          binsOfBeam(bins_, bearing, std::abs(angle_increment_))};
 }
 
 void PlanarBinning::prepareBeams(const RangeScan& scan) {
-  const bool same = beams_.size() == scan.ranges.size() && angle_min_ == scan.angle_min &&
-                    angle_increment_ == scan.angle_increment;
+  const bool same =
+      beams_.size() == scan.ranges.size() && angle_min_ == scan.angle_min && angle_increment_ == scan.angle_increment;
   if (same) return;
   angle_min_ = scan.angle_min;
   angle_increment_ = scan.angle_increment;

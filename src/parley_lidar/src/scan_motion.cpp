@@ -14,11 +14,10 @@ LidarToBase lidarToBase(const Odometry& then, const Odometry& end, const LidarMo
   const Pose2 T_end_then = end.pose.inverse() * then.pose;
   const auto about = [](double angle, const Eigen::Vector3d& axis) { return Eigen::AngleAxisd(angle, axis); };
   const Eigen::Matrix3d attitude = (about(T_end_then.yaw, Eigen::Vector3d::UnitZ()) *
-                                    about(then.pitch, Eigen::Vector3d::UnitY()) *
-                                    about(then.roll, Eigen::Vector3d::UnitX()))
+                                    about(then.pitch, Eigen::Vector3d::UnitY()) * about(then.roll, Eigen::Vector3d::UnitX()))
                                        .toRotationMatrix();
-  const Eigen::Vector3d place = attitude * Eigen::Vector3d(mount.x, mount.y, mount.z) +
-                                Eigen::Vector3d(T_end_then.x, T_end_then.y, 0.0);
+  const Eigen::Vector3d place =
+      attitude * Eigen::Vector3d(mount.x, mount.y, mount.z) + Eigen::Vector3d(T_end_then.x, T_end_then.y, 0.0);
   const Eigen::Matrix3d turn = attitude * about(mount.yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   return {turn.cast<float>(), place.cast<float>()};
 }

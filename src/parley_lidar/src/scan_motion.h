@@ -23,8 +23,7 @@ struct LidarToBase {
 class ScanMotion {
  public:
   /// nullopt if odometry does not cover [start, start + duration].
-  static std::optional<ScanMotion> over(const OdometryBuffer& odometry, double start, double duration,
-                                        const LidarMount& mount);
+  static std::optional<ScanMotion> over(const OdometryBuffer& odometry, double start, double duration, const LidarMount& mount);
 
   /// time: [s] after the start, within the duration.
   const LidarToBase& at(float time) const {

@@ -39,8 +39,10 @@ class OwnBody {
   OwnBody(const Footprint& footprint, double margin, const LidarMount& mount)
       : half_length_(static_cast<float>(0.5 * footprint.length + margin)),
         half_width_(static_cast<float>(0.5 * footprint.width + margin)),
-        x_(static_cast<float>(mount.x)), y_(static_cast<float>(mount.y)),
-        cos_(static_cast<float>(std::cos(mount.yaw))), sin_(static_cast<float>(std::sin(mount.yaw))) {}
+        x_(static_cast<float>(mount.x)),
+        y_(static_cast<float>(mount.y)),
+        cos_(static_cast<float>(std::cos(mount.yaw))),
+        sin_(static_cast<float>(std::sin(mount.yaw))) {}
 
   bool contains(const LidarPoint& p) const {
     return std::abs(x_ + cos_ * p.x - sin_ * p.y) <= half_length_ && std::abs(y_ + sin_ * p.x + cos_ * p.y) <= half_width_;
@@ -52,8 +54,7 @@ class OwnBody {
   float cos_, sin_;
 };
 
-BinnedScan withFreeBins(BinnedScan binned, const BearingBins& bins, const std::vector<Looks>& looks, double view,
-                        double yaw) {
+BinnedScan withFreeBins(BinnedScan binned, const BearingBins& bins, const std::vector<Looks>& looks, double view, double yaw) {
   for (int bin = 0; bin < bins.count(); ++bin) {
     const Looks& look = looks[static_cast<std::size_t>(bin)];
     const double bearing = -kPi + (bin + 0.5) * bins.width();
@@ -73,8 +74,8 @@ double durationOf(const LidarCloud& cloud, const LidarOptions& options) {
   return static_cast<double>(latest);
 }
 
-BinnedScan binCloud(const LidarCloud& cloud, const ScanMotion& motion, const LidarOptions& options,
-                    const Footprint& footprint, const LidarMount& mount) {
+BinnedScan binCloud(const LidarCloud& cloud, const ScanMotion& motion, const LidarOptions& options, const Footprint& footprint,
+                    const LidarMount& mount) {
   const BearingBins bins(options.bins);
   const OwnBody own_body(footprint, options.self_margin, mount);
   BinnedScan binned(options.bins);

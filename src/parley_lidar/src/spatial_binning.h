@@ -13,7 +13,7 @@ double durationOf(const LidarCloud& cloud, const LidarOptions& options);
 
 /// Sorts a spatial lidar's returns by bearing: obstacles are what is in the height band and not the robot itself.
 /// A bin within the lidar's view is free up to its nearest obstacle, unless nothing but the robot itself was seen there.
-BinnedScan binCloud(const LidarCloud& cloud, const ScanMotion& motion, const LidarOptions& options,
-                    const Footprint& footprint, const LidarMount& mount);
+BinnedScan binCloud(const LidarCloud& cloud, const ScanMotion& motion, const LidarOptions& options, const Footprint& footprint,
+                    const LidarMount& mount);
 
 }  // namespace parley

@@ -9,6 +9,7 @@
 #include <random>
 #include <vector>
 
+#include "parley_geometry/footprint.h"
 #include "parley_geometry/odometry_buffer.h"
 #include "parley_geometry/polygon.h"
 #include "parley_geometry/scan.h"
@@ -128,14 +129,22 @@ inline OdometryBuffer recorded(const OdometryAt& robot, double from, double unti
 }
 
 inline RangeScan scanned(const World& world, const OdometryAt& robot, const Lidar& lidar, double stamp, std::mt19937& random) {
-  RangeScan scan{stamp, lidar.angle_min, lidar.view / lidar.beams, lidar.duration / std::max(1, lidar.beams - 1),
-                 lidar.range_min, lidar.range_max, {}};
+  RangeScan scan{stamp,
+                 lidar.angle_min,
+                 lidar.view / lidar.beams,
+                 lidar.duration / std::max(1, lidar.beams - 1),
+                 lidar.range_min,
+                 lidar.range_max,
+                 {}};
   std::normal_distribution<double> noise(0.0, 1.0);
   std::vector<Wall> walls = world.at(stamp);
+  Eigen::Isometry3d T = attitudeOf(robot(stamp)) * mountOf(lidar.mount);
   for (int i = 0; i < lidar.beams; ++i) {
     const double time = stamp + i * scan.time_increment, angle = scan.angle_min + i * scan.angle_increment;
-    if (lidar.duration > 0.0 && !world.bodies.empty()) walls = world.at(time);
-    const Eigen::Isometry3d T = attitudeOf(robot(time)) * mountOf(lidar.mount);
+    if (lidar.duration > 0.0) {
+      walls = world.at(time);
+      T = attitudeOf(robot(time)) * mountOf(lidar.mount);
+    }
     const double range = cast(walls, T.translation(), T.linear() * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0));
     const double measured = range + lidar.noise * noise(random);
     scan.ranges.push_back(static_cast<float>(range > lidar.range_max ? kInf : std::max(measured, lidar.range_min)));

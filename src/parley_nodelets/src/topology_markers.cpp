@@ -69,7 +69,7 @@ Drawing drawContours(const std::vector<Contour>& contours, std::size_t most_poin
 }
 
 Drawing drawEdges(const VisibilityGraph& graph, std::size_t most_points) {
-  Drawing drawing(Marker::LINE_LIST, "edges", 0.02, colour(0.3F, 0.6F, 0.9F, 0.5F), most_points);
+  Drawing drawing(Marker::LINE_LIST, "edges", 0.02, colour(0.3F, 0.6F, 0.9F, 0.25F), most_points);
   for (const Edge& edge : graph.edges()) drawing.line(graph.vertex(edge.from).position, graph.vertex(edge.to).position);
   return drawing;
 }

@@ -11,8 +11,8 @@ namespace {
 constexpr float kFarPixels = 1000.0F;  // where nothing is marked at all
 
 struct Corner {
-  int x, y;        // [cells] lower left of the four that surround a point
-  double fx, fy;   // [-] in [0, 1]
+  int x, y;       // [cells] lower left of the four that surround a point
+  double fx, fy;  // [-] in [0, 1]
 };
 
 Corner cornerAt(const GridFrame& frame, const Eigen::Vector2d& p) {
@@ -24,8 +24,7 @@ Corner cornerAt(const GridFrame& frame, const Eigen::Vector2d& p) {
 
 }  // namespace
 
-DistanceField::DistanceField(const GridFrame& frame, const std::vector<unsigned char>& marked, bool rough)
-    : frame_(frame) {
+DistanceField::DistanceField(const GridFrame& frame, const std::vector<unsigned char>& marked, bool rough) : frame_(frame) {
   cv::Mat seeds(frame.height, frame.width, CV_8UC1);
   std::transform(marked.begin(), marked.end(), seeds.data, [](unsigned char m) { return m ? 0 : 255; });
   cv::Mat pixels;

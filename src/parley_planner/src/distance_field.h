@@ -12,8 +12,8 @@ namespace parley {
 class DistanceField {
  public:
   struct Sample {
-    double distance = 0.0;                                // [m]
-    Eigen::Vector2d gradient = Eigen::Vector2d::Zero();   // [-] away from what is near
+    double distance = 0.0;                               // [m]
+    Eigen::Vector2d gradient = Eigen::Vector2d::Zero();  // [-] away from what is near
   };
 
   DistanceField() = default;

@@ -8,12 +8,12 @@ namespace parley {
 
 namespace {
 
-constexpr int kMostPasses = 8;        // simulations until the margins must be kept
-constexpr double kBackOff = 0.03;     // [m] stop this much before what is too near
+constexpr int kMostPasses = 8;         // simulations until the margins must be kept
+constexpr double kBackOff = 0.03;      // [m] stop this much before what is too near
 constexpr double kTrackBackOff = 0.2;  // [m] as above for what moves: it comes nearer while the robot brakes
-constexpr double kSlack = 0.005;      // [m] by which a start that is too near may come nearer: lookups are no better
-constexpr double kLastMargin = 0.01;  // [m]
-constexpr double kSpeedSlack = 0.02;  // [m/s]
+constexpr double kSlack = 0.005;       // [m] by which a start that is too near may come nearer: lookups are no better
+constexpr double kLastMargin = 0.01;   // [m]
+constexpr double kSpeedSlack = 0.02;   // [m/s]
 
 }  // namespace
 
@@ -57,9 +57,8 @@ SpeedProfile DriveGenerator::profileAlong(const ReferencePath& path, const Drive
   return profile;
 }
 
-DriveGenerator::Correction DriveGenerator::corrected(const PathDrive& drive, const SpeedProfile& profile,
-                                                     const DriveScene& scene, const Margins& margins,
-                                                     const Floor& floor) const {
+DriveGenerator::Correction DriveGenerator::corrected(const PathDrive& drive, const SpeedProfile& profile, const DriveScene& scene,
+                                                     const Margins& margins, const Floor& floor) const {
   Correction correction{profile, DriveEnd::kPathEnd, false};
   for (std::size_t k = 1; k < drive.points.size(); ++k) {
     const TrajectoryPoint& point = drive.points[k];
@@ -107,8 +106,7 @@ GeneratedDrive DriveGenerator::along(const ReferencePath& path, const Trajectory
   return result;
 }
 
-bool DriveGenerator::isFree(const std::vector<TrajectoryPoint>& points, const DriveScene& scene,
-                            const Margins& margins) const {
+bool DriveGenerator::isFree(const std::vector<TrajectoryPoint>& points, const DriveScene& scene, const Margins& margins) const {
   const Floor floor = floorAt(points.front(), scene, margins);
   return std::all_of(points.begin(), points.end(), [&](const TrajectoryPoint& point) {
     return probe_.clearance(scene.surroundings.obstacles(), point.pose) >= floor.obstacles &&

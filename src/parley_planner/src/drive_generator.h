@@ -58,8 +58,8 @@ class DriveGenerator {
   };
   Floor floorAt(const TrajectoryPoint& start, const DriveScene& scene, const Margins& margins) const;
   /// The profile under which the next simulation should keep clear of what this one came too near to.
-  Correction corrected(const PathDrive& drive, const SpeedProfile& profile, const DriveScene& scene,
-                       const Margins& margins, const Floor& floor) const;
+  Correction corrected(const PathDrive& drive, const SpeedProfile& profile, const DriveScene& scene, const Margins& margins,
+                       const Floor& floor) const;
   SpeedProfile profileAlong(const ReferencePath& path, const DriveScene& scene, const Margins& margins,
                             const std::vector<double>& sight_bounds) const;
   bool isFree(const std::vector<TrajectoryPoint>& points, const DriveScene& scene, const Margins& margins) const;

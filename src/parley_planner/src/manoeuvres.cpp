@@ -15,7 +15,7 @@ constexpr double kStandingSpeed = 0.02;   // [m/s] [rad/s]
 constexpr double kSlowSpeed = 0.3;        // [m/s] slower than this, a turn on the spot may be called for
 constexpr double kDirectionReach = 0.5;   // [m] a path's first direction is that to a point so far along it
 constexpr double kTurnWhileMoving = 1.9;  // [rad] off the heading, a moving robot stops first
-constexpr double kWorthStarting = 0.04;    // [m] drives that get less far are not worth starting
+constexpr double kWorthStarting = 0.04;   // [m] drives that get less far are not worth starting
 constexpr double kSqueezeReach = 1.2;     // [m] along the path, at least, to where the search for narrow places leads
 constexpr double kSqueezeMost = 3.0;      // [m] and at most
 
@@ -35,14 +35,10 @@ bool isUseful(const std::optional<Proposal>& proposal) {
 
 }  // namespace
 
-bool stands(const Twist2& twist) {
-  return std::abs(twist.speed) < kStandingSpeed && std::abs(twist.turn_rate) < kStandingSpeed;
-}
+bool stands(const Twist2& twist) { return std::abs(twist.speed) < kStandingSpeed && std::abs(twist.turn_rate) < kStandingSpeed; }
 
 Manoeuvres::Manoeuvres(const PlannerOptions& options, const Footprint& footprint, const MotionLimits& limits)
-    : options_(options),
-      footprint_(footprint),
-      generator_(footprint, shareOf(limits, options.limit_share), options.time_step) {}
+    : options_(options), footprint_(footprint), generator_(footprint, shareOf(limits, options.limit_share), options.time_step) {}
 
 std::optional<Proposal> Manoeuvres::propose(const ManoeuvreTask& task) const {
   const double off = std::abs(angleBetween(task.start.pose.yaw, firstDirection(task.path)));
@@ -82,8 +78,7 @@ std::optional<Proposal> Manoeuvres::driveOn(const ManoeuvreTask& task, const Tra
 }
 
 std::optional<Proposal> Manoeuvres::turnAndDrive(const ManoeuvreTask& task) const {
-  std::vector<TrajectoryPoint> points =
-      generator_.turn(task.start, firstDirection(task.path), task.scene, task.margins);
+  std::vector<TrajectoryPoint> points = generator_.turn(task.start, firstDirection(task.path), task.scene, task.margins);
   if (points.empty()) return std::nullopt;
   const double turned_at = points.back().time;
   std::optional<Proposal> rest = driveOn(task, points.back(), false, task.path);
@@ -126,8 +121,7 @@ std::optional<Proposal> Manoeuvres::squeeze(const ManoeuvreTask& task) const {
                                                      generator_.limits(), options_.time_step, search);
   if (points.size() < 2) return std::nullopt;
   const double until = points.back().time;
-  return Proposal{SampledTrajectory(std::move(points)), task.path, DriveEnd::kPathEnd, 0.1 * static_cast<double>(target),
-                  until};
+  return Proposal{SampledTrajectory(std::move(points)), task.path, DriveEnd::kPathEnd, 0.1 * static_cast<double>(target), until};
 }
 
 }  // namespace parley

@@ -24,8 +24,8 @@ struct ManoeuvreTask {
   const TrajectoryPoint& start;  // state it begins in
   const DriveScene& scene;
   Margins margins;
-  double push_distance;        // [m] that obstacles push the path away
-  const SightLaw* sight_law;   // null: does not matter
+  double push_distance;       // [m] that obstacles push the path away
+  const SightLaw* sight_law;  // null: does not matter
 };
 
 /// The motions by which a robot gets onto a path and along it: drive on, turn on the spot first, back out of where it cannot
@@ -40,8 +40,7 @@ class Manoeuvres {
   std::optional<Proposal> squeeze(const ManoeuvreTask& task) const;
 
  private:
-  std::optional<Proposal> driveOn(const ManoeuvreTask& task, const TrajectoryPoint& start, bool reverse,
-                                  const Path& path) const;
+  std::optional<Proposal> driveOn(const ManoeuvreTask& task, const TrajectoryPoint& start, bool reverse, const Path& path) const;
   std::optional<Proposal> turnAndDrive(const ManoeuvreTask& task) const;
   std::optional<Proposal> backOut(const ManoeuvreTask& task) const;
 

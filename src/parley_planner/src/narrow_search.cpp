@@ -10,13 +10,13 @@ namespace parley {
 
 namespace {
 
-constexpr double kCell = 0.1;                  // [m]
-constexpr int kHeadings = 24;                  // [-] in a full turn
+constexpr double kCell = 0.1;                    // [m]
+constexpr int kHeadings = 24;                    // [-] in a full turn
 constexpr double kTurn = 2.0 * kPi / kHeadings;  // [rad] of one move
-constexpr double kStride = 0.15;               // [m] of one move
-constexpr double kReversePrice = 1.3;          // [-] it is blind to nothing, but others expect it less
-constexpr double kSwitchPrice = 0.6;           // [s] another kind of move: stop and start again
-constexpr double kTypicalSpeed = 0.4;          // [m/s]
+constexpr double kStride = 0.15;                 // [m] of one move
+constexpr double kReversePrice = 1.3;            // [-] it is blind to nothing, but others expect it less
+constexpr double kSwitchPrice = 0.6;             // [s] another kind of move: stop and start again
+constexpr double kTypicalSpeed = 0.4;            // [m/s]
 
 /// One move: a turn on the spot, or a stretch on a curvature.
 struct Move {
@@ -26,7 +26,7 @@ struct Move {
 };
 
 std::vector<Move> allMoves() {
-  return {{0.0, kStride},    {kTurn, kStride},  {-kTurn, kStride}, {0.0, -kStride},
+  return {{0.0, kStride},    {kTurn, kStride},   {-kTurn, kStride}, {0.0, -kStride},
           {kTurn, -kStride}, {-kTurn, -kStride}, {kTurn, 0.0},      {-kTurn, 0.0}};
 }
 
@@ -43,9 +43,7 @@ struct Node {
 struct Entry {
   double estimate;
   int node;
-  bool operator>(const Entry& other) const {
-    return estimate != other.estimate ? estimate > other.estimate : node > other.node;
-  }
+  bool operator>(const Entry& other) const { return estimate != other.estimate ? estimate > other.estimate : node > other.node; }
 };
 
 class Search {
@@ -156,8 +154,7 @@ std::vector<TrajectoryPoint> driveArc(const TrajectoryPoint& start, double curva
 
 std::vector<TrajectoryPoint> searchNarrow(const TrajectoryPoint& start, const Eigen::Vector2d& target,
                                           const Surroundings& surroundings, const FootprintProbe& probe,
-                                          const MotionLimits& limits, double time_step,
-                                          const NarrowSearchOptions& options) {
+                                          const MotionLimits& limits, double time_step, const NarrowSearchOptions& options) {
   const std::vector<Move> moves = Search(start.pose, target, surroundings, probe, options).run();
   if (moves.empty()) return {};
   std::vector<TrajectoryPoint> points = {start};

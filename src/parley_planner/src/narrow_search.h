@@ -8,9 +8,9 @@
 namespace parley {
 
 struct NarrowSearchOptions {
-  int expansions = 4000;     // [-] bound of the search
-  double clearance = 0.02;   // [m] of the footprint
-  double slow_speed = 0.5;   // [m/s] highest on the way
+  int expansions = 4000;    // [-] bound of the search
+  double clearance = 0.02;  // [m] of the footprint
+  double slow_speed = 0.5;  // [m/s] highest on the way
 };
 
 /// A* over positions and headings with the exact footprint, for places where the rectangle has to turn before it fits:
@@ -19,8 +19,7 @@ struct NarrowSearchOptions {
 /// The target is a disc of `kTargetRadius` round a place, with any heading.
 std::vector<TrajectoryPoint> searchNarrow(const TrajectoryPoint& start, const Eigen::Vector2d& target,
                                           const Surroundings& surroundings, const FootprintProbe& probe,
-                                          const MotionLimits& limits, double time_step,
-                                          const NarrowSearchOptions& options);
+                                          const MotionLimits& limits, double time_step, const NarrowSearchOptions& options);
 constexpr double kTargetRadius = 0.25;  // [m]
 
 /// A piece of a circle (or line) driven from standing to standing; `length` [m] is negative backwards.

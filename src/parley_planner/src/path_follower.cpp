@@ -9,9 +9,9 @@ namespace parley {
 namespace {
 
 // Tracking error obeys e'' + 2 zeta w e' + w^2 e = 0 over the distance driven.
-constexpr double kStiffness = 5.0;    // [1/m^2] w^2
-constexpr double kDamping = 4.5;      // [1/m] 2 zeta w
-constexpr double kProjectReach = 0.4; // [m] the projection moves at most this far at once
+constexpr double kStiffness = 5.0;     // [1/m^2] w^2
+constexpr double kDamping = 4.5;       // [1/m] 2 zeta w
+constexpr double kProjectReach = 0.4;  // [m] the projection moves at most this far at once
 
 double approach(double from, double to, double step) { return std::clamp(to, from - step, from + step); }
 
@@ -89,8 +89,7 @@ PathDrive followPath(const ReferencePath& path, const SpeedProfile& profile, con
   return drive;
 }
 
-std::vector<TrajectoryPoint> turnOnSpot(const TrajectoryPoint& start, double yaw, const MotionLimits& limits,
-                                        double time_step) {
+std::vector<TrajectoryPoint> turnOnSpot(const TrajectoryPoint& start, double yaw, const MotionLimits& limits, double time_step) {
   const double turn = angleBetween(start.pose.yaw, yaw);
   const double sign = turn < 0.0 ? -1.0 : 1.0, angle = std::abs(turn);
   // Trapezoid of the turn rate: ramps of `ramp` seconds up to `peak`, with `hold` seconds between.
@@ -107,7 +106,8 @@ std::vector<TrajectoryPoint> turnOnSpot(const TrajectoryPoint& start, double yaw
     const double a = limits.turn_acceleration;
     const double turned = 0.5 * a * rising * rising + peak * level + peak * falling - 0.5 * a * falling * falling;
     const double rate = std::max(0.0, a * rising - a * falling);
-    points.push_back({start.time + t, {start.pose.x, start.pose.y, wrapAngle(start.pose.yaw + sign * turned)}, {0.0, sign * rate}});
+    points.push_back(
+        {start.time + t, {start.pose.x, start.pose.y, wrapAngle(start.pose.yaw + sign * turned)}, {0.0, sign * rate}});
   }
   points.back().twist = {};
   points.back().pose.yaw = wrapAngle(yaw);

@@ -21,7 +21,6 @@ PathDrive followPath(const ReferencePath& path, const SpeedProfile& profile, con
 constexpr double kLongestDrive = 30.0;  // [s]
 
 /// Turning on the spot from standing, fastest within the limits. Ends standing at `yaw` [rad].
-std::vector<TrajectoryPoint> turnOnSpot(const TrajectoryPoint& start, double yaw, const MotionLimits& limits,
-                                        double time_step);
+std::vector<TrajectoryPoint> turnOnSpot(const TrajectoryPoint& start, double yaw, const MotionLimits& limits, double time_step);
 
 }  // namespace parley

@@ -11,24 +11,21 @@ namespace parley {
 
 namespace {
 
-constexpr int kStride = 2;                 // [cells] lattice spacing
-constexpr double kStartRelief = 0.4;       // [m] around the start, where the robot may already be too near
-constexpr double kKeepDistance = 0.2;      // [m] lattice points this near to the previous path keep it
+constexpr int kStride = 2;             // [cells] lattice spacing
+constexpr double kStartRelief = 0.4;   // [m] around the start, where the robot may already be too near
+constexpr double kKeepDistance = 0.2;  // [m] lattice points this near to the previous path keep it
 constexpr float kInfinity = 1e30F;
 
 struct Entry {
   float estimate;  // [m] cost so far and at least to come
   int node;
-  bool operator>(const Entry& other) const {
-    return estimate != other.estimate ? estimate > other.estimate : node > other.node;
-  }
+  bool operator>(const Entry& other) const { return estimate != other.estimate ? estimate > other.estimate : node > other.node; }
 };
 
 /// The search's lattice: one node for each block of kStride x kStride cells.
 class Lattice {
  public:
-  Lattice(const Surroundings& surroundings, const Eigen::Vector2d& start, const Path& previous,
-          const PathSearchOptions& options)
+  Lattice(const Surroundings& surroundings, const Eigen::Vector2d& start, const Path& previous, const PathSearchOptions& options)
       : field_(surroundings.obstacles()), unseen_(surroundings.unseen()), frame_(field_.frame()), options_(options) {
     frame_.width /= kStride;
     frame_.height /= kStride;
@@ -68,9 +65,7 @@ class Lattice {
   }
 
  private:
-  bool relieved(int node, float clearance) const {
-    return clearance > 0.02F && (position(node) - start_).norm() < kStartRelief;
-  }
+  bool relieved(int node, float clearance) const { return clearance > 0.02F && (position(node) - start_).norm() < kStartRelief; }
   void keepAround(const Eigen::Vector2d& p) {
     const int reach = static_cast<int>(kKeepDistance / frame_.resolution);
     const Eigen::Vector2i middle = frame_.cellOf(p);

@@ -11,11 +11,11 @@ namespace parley {
 using Path = std::vector<Eigen::Vector2d>;  // [m] odom frame
 
 struct PathSearchOptions {
-  double least_clearance = 0.22;   // [m] of the path's points: hard
-  double comfort_distance = 0.5;   // [m] nearer costs more
-  double clearance_weight = 3.0;   // [-]
-  double unknown_cost = 1.5;       // [-]
-  double keep_discount = 0.9;      // [-] cost factor along `previous`
+  double least_clearance = 0.22;  // [m] of the path's points: hard
+  double comfort_distance = 0.5;  // [m] nearer costs more
+  double clearance_weight = 3.0;  // [-]
+  double unknown_cost = 1.5;      // [-]
+  double keep_discount = 0.9;     // [-] cost factor along `previous`
 };
 
 /// A* over a lattice of two by two map cells with clearance cost.

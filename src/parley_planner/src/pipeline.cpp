@@ -14,6 +14,7 @@ constexpr double kWindowRim = 0.4;        // [m] the local goal stays this far i
 constexpr double kLastStretch = 0.8;      // [s] so little before it ends at the goal, a trajectory is left alone
 constexpr double kSqueezePeriod = 0.5;    // [s] the search for narrow places is the dearest step
 constexpr double kLeastMargin = 0.015;    // [m] to single returns, whose noise this is about
+constexpr int kNewTrack = 4;              // [-] scans until a thing that does not move is believed to stand
 constexpr double kSlowSpeed = 0.3;        // [m/s]
 constexpr double kWiderPush = 0.25;       // [m] more, where the usual path led nowhere
 constexpr double kBlockedReach = 1.5;     // [m] moving things nearer than this are what blocks
@@ -85,9 +86,8 @@ bool Planner::Pipeline::usable(const PlanRequest& request) const {
 TrajectoryPoint Planner::Pipeline::startState(const PlanRequest& request) const {
   const Odometry& odometry = request.odometry;
   const double ahead = std::clamp(request.start_time - odometry.stamp, 0.0, kLongestForecast);
-  const TrajectoryPoint measured{request.start_time,
-                                 integrateTwist(odometry.pose, odometry.twist.speed, odometry.twist.turn_rate, ahead),
-                                 odometry.twist};
+  const TrajectoryPoint measured{
+      request.start_time, integrateTwist(odometry.pose, odometry.twist.speed, odometry.twist.turn_rate, ahead), odometry.twist};
   if (request.committed.empty()) return measured;
   const TrajectoryPoint intended = request.committed.at(request.start_time);
   if (stands(intended.twist) && stands(odometry.twist)) return {request.start_time, odometry.pose, {}};
@@ -100,8 +100,8 @@ TrajectoryPoint Planner::Pipeline::startState(const PlanRequest& request) const 
 
 bool Planner::Pipeline::arrived(const PlanRequest& request) {
   const double distance = (request.odometry.pose.position() - request.goal).norm();
-  const bool standing = stands(request.odometry.twist) &&
-                        (request.committed.empty() || stands(request.committed.at(request.start_time).twist));
+  const bool standing =
+      stands(request.odometry.twist) && (request.committed.empty() || stands(request.committed.at(request.start_time).twist));
   // Having tried for long, anywhere within the tolerance will do.
   const double enough = (arrived_ || watch_.level() > 0 ? 0.9 : 0.5) * request.goal_tolerance;
   arrived_ = distance < enough && (arrived_ || standing);
@@ -111,6 +111,9 @@ bool Planner::Pipeline::arrived(const PlanRequest& request) {
 bool Planner::Pipeline::mayKeep(const PlanRequest& request) const {
   if (request.committed.empty() || request.start_time >= request.committed.endTime()) return false;
   if (request.start_time < busy_until_) return true;
+  const bool alone = std::none_of(request.tracks.begin(), request.tracks.end(),
+                                  [](const TrackedObject& track) { return track.moving || track.observations < kNewTrack; });
+  if (!alone) return false;  // first sight must not wait
   return request.now - planned_at_ < options_.replan_period - 1e-6;
 }
 
@@ -128,8 +131,7 @@ void Planner::Pipeline::look(const PlanRequest& request, const TrajectoryPoint& 
     sight_law_.observe(surroundings_, request.scan, request.T_odom_scan, request.tracks, start.pose, request.now);
     speed_bound_ = std::min(limits_.speed, sight_law_.speedFor(sight_law_.gapAt(start.pose.position())));
   }
-  local_goal_ =
-      localGoal(request.route, request.odometry.pose.position(), options_.look_ahead, request.map.frame, kWindowRim);
+  local_goal_ = localGoal(request.route, request.odometry.pose.position(), options_.look_ahead, request.map.frame, kWindowRim);
   watch_.update(request.odometry.pose.position(), request.now);
 }
 
@@ -182,7 +184,8 @@ std::optional<Proposal> Planner::Pipeline::attempt(const Attempt& how, const Pla
   const ManoeuvreTask task{path, start, scene, how.margins, how.push_distance, options_.sight_law ? &sight_law_ : nullptr};
   std::optional<Proposal> proposal = how.squeeze ? manoeuvres_.squeeze(task) : manoeuvres_.propose(task);
   if (!proposal) return std::nullopt;
-  const Margins judged{std::max(kLeastMargin + 0.005, 0.4 * how.margins.creeping), 0.5 * how.margins.per_speed, how.margins.creep_speed};
+  const Margins judged{std::max(kLeastMargin + 0.005, 0.4 * how.margins.creeping), 0.5 * how.margins.per_speed,
+                       how.margins.creep_speed};
   return validator_.check(proposal->trajectory, start, judged).good() ? proposal : std::nullopt;
 }
 
@@ -215,9 +218,8 @@ PlanResult Planner::Pipeline::keep(PlanCode code, const std::string& why) const 
 
 bool Planner::Pipeline::somethingMoved(const PlanRequest& request) const {
   const Eigen::Vector2d here = request.odometry.pose.position();
-  return std::any_of(request.tracks.begin(), request.tracks.end(), [&](const TrackedObject& track) {
-    return (track.position - here).norm() < kBlockedReach + track.radius;
-  });
+  return std::any_of(request.tracks.begin(), request.tracks.end(),
+                     [&](const TrackedObject& track) { return (track.position - here).norm() < kBlockedReach + track.radius; });
 }
 
 }  // namespace parley

@@ -10,7 +10,10 @@ class ProgressWatch {
  public:
   explicit ProgressWatch(double stuck_time) : stuck_time_(stuck_time) {}
 
-  void reset() { since_ = -1.0; level_ = 0; }
+  void reset() {
+    since_ = -1.0;
+    level_ = 0;
+  }
   /// How hard to try: 0 normally, one more for each `stuck_time` [s] within `kNear` of one place. Having got stuck, it takes
   /// `kAway` to be normal again: a measure that helped is kept until it has led out.
   int update(const Eigen::Vector2d& position, double now) {

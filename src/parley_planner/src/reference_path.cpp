@@ -46,8 +46,8 @@ void addDifference(Band* system, const Path& points, std::size_t fixed, std::siz
 }
 
 /// Adds the push of obstacles on a free point, linearised where it is: (lack - gradient . step)^2, and `inertia` * step^2.
-void addPush(Band* system, const Eigen::Vector2d& point, std::size_t row, const DistanceField& obstacles,
-             double push_distance, double inertia) {
+void addPush(Band* system, const Eigen::Vector2d& point, std::size_t row, const DistanceField& obstacles, double push_distance,
+             double inertia) {
   const DistanceField::Sample sample = obstacles.sample(point);
   const double lack = push_distance - sample.distance, steepness = sample.gradient.norm();
   Eigen::Matrix2d matrix = inertia * Eigen::Matrix2d::Identity();

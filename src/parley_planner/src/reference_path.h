@@ -45,17 +45,16 @@ struct PathStart {
 };
 
 struct SmoothingOptions {
-  double spacing = 0.1;         // [m] between points
-  double push_distance = 0.4;   // [m] obstacles nearer than this push the path away
-  double bending_weight = 60.0; // [-] against a push of one
+  double spacing = 0.1;             // [m] between points
+  double push_distance = 0.4;       // [m] obstacles nearer than this push the path away
+  double bending_weight = 60.0;     // [-] against a push of one
   double twisting_weight = 2000.0;  // [-] against change of curvature
-  double tension_weight = 0.3;  // [-]
-  int iterations = 10;          // [-]
+  double tension_weight = 0.3;      // [-]
+  int iterations = 10;              // [-]
 };
 
 /// Elastic band: least bending energy against the push of near obstacles, by Gauss-Newton steps. Begins a
 /// little behind the start, on the curve that is being driven, and ends where the path ends.
-ReferencePath smoothed(const Path& path, const PathStart& start, const DistanceField& obstacles,
-                       const SmoothingOptions& options);
+ReferencePath smoothed(const Path& path, const PathStart& start, const DistanceField& obstacles, const SmoothingOptions& options);
 
 }  // namespace parley

@@ -9,17 +9,17 @@ namespace parley {
 
 namespace {
 
-constexpr double kCell = 0.1;              // [m]
-constexpr int kStraight = 10;              // units of cost across a cell's side
-constexpr int kDiagonal = 14;              // and across its corner
+constexpr double kCell = 0.1;                // [m]
+constexpr int kStraight = 10;                // units of cost across a cell's side
+constexpr int kDiagonal = 14;                // and across its corner
 constexpr double kUnit = kCell / kStraight;  // [m]
 constexpr int kFar = static_cast<int>(kFarGap / kUnit);
-constexpr int kSlowPrice = 2;              // [-] times as dear where an intruder would have to graze walls
-constexpr double kVisibleMargin = 0.1;     // [m] a ray must pass a place by this much
-constexpr double kWallBehind = 0.3;        // [m] behind the robot's middle nothing comes past it
-constexpr double kWallHalfWidth = 1.2;     // [m]
-constexpr double kApproaching = 0.3;       // [m/s]
-constexpr int kNewTrack = 4;               // scans before a thing's velocity is believed
+constexpr int kSlowPrice = 2;           // [-] times as dear where an intruder would have to graze walls
+constexpr double kVisibleMargin = 0.1;  // [m] a ray must pass a place by this much
+constexpr double kWallBehind = 0.3;     // [m] behind the robot's middle nothing comes past it
+constexpr double kWallHalfWidth = 1.2;  // [m]
+constexpr double kApproaching = 0.3;    // [m/s]
+constexpr int kNewTrack = 4;            // scans before a thing's velocity is believed
 
 int cost(double metres) { return static_cast<int>(std::lround(metres / kUnit)); }
 

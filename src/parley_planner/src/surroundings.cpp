@@ -72,6 +72,8 @@ FootprintProbe::FootprintProbe(const Footprint& footprint) {
   }
   for (const double end : {-half_long, half_long}) {
     for (const double across : {-1.0, -0.5, 0.5, 1.0}) add(end, across * half_short, 0.0);
+    const double near_end = end > 0.0 ? end - 0.5 * half_short : end + 0.5 * half_short;
+    for (const double across : {-1.0, 1.0}) add(near_end, across * half_short, 0.0);
   }
 }
 

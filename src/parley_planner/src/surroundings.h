@@ -17,8 +17,7 @@ class Surroundings {
   Surroundings() = default;
   /// Occupied cells of the map and the newest scan's returns, but for those on `tracks` that move: these are judged
   /// where they will be, not where they are.
-  Surroundings(const LocalMap& map, const ObstacleScan& scan, const Pose2& T_odom_scan,
-               const std::vector<TrackedObject>& tracks);
+  Surroundings(const LocalMap& map, const ObstacleScan& scan, const Pose2& T_odom_scan, const std::vector<TrackedObject>& tracks);
 
   bool empty() const { return obstacles_.empty(); }
   const GridFrame& frame() const { return obstacles_.frame(); }

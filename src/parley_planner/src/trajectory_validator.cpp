@@ -8,16 +8,16 @@ namespace parley {
 
 namespace {
 
-constexpr double kBucketSize = 0.5;           // [m]
-constexpr double kPositionTolerance = 0.02;   // [m] at the beginning
-constexpr double kYawTolerance = 0.02;        // [rad]
-constexpr double kTwistTolerance = 0.05;      // [m/s] [rad/s]
-constexpr double kLimitTolerance = 1.02;      // [-] rounding of times and states
-constexpr double kStandingTwist = 1e-3;       // [m/s] [rad/s]
-constexpr double kSlack = 0.002;              // [m] that a state may lack more than the first one already does
-constexpr int kUnseenSpecks = 6;              // [cells] that rays left out and that a footprint may cover
-constexpr double kSeenMargin = 0.05;          // [m] a ray must pass a place by this much to have seen it free
-constexpr double kTrackGrowth = 0.15;         // [m] returns this far outside a moving thing are its own
+constexpr double kBucketSize = 0.5;          // [m]
+constexpr double kPositionTolerance = 0.02;  // [m] at the beginning
+constexpr double kYawTolerance = 0.02;       // [rad]
+constexpr double kTwistTolerance = 0.05;     // [m/s] [rad/s]
+constexpr double kLimitTolerance = 1.02;     // [-] rounding of times and states
+constexpr double kStandingTwist = 1e-3;      // [m/s] [rad/s]
+constexpr double kSlack = 0.002;             // [m] that a state may lack more than the first one already does
+constexpr int kUnseenSpecks = 6;             // [cells] that rays left out and that a footprint may cover
+constexpr double kSeenMargin = 0.05;         // [m] a ray must pass a place by this much to have seen it free
+constexpr double kTrackGrowth = 0.15;        // [m] returns this far outside a moving thing are its own
 
 bool finite(const TrajectoryPoint& p) {
   return p.pose.isFinite() && std::isfinite(p.time) && std::isfinite(p.twist.speed) && std::isfinite(p.twist.turn_rate);
@@ -165,7 +165,8 @@ int TrajectoryValidator::unseenCells(const Pose2& pose) const {
       if (map_->at(Eigen::Vector2i(x, y)) != CellState::kUnknown) continue;
       const Eigen::Vector2d p = frame.centerOf({x, y});
       const double dx = p.x() - pose.x, dy = p.y() - pose.y;
-      const bool under = std::abs(c * dx + s * dy) <= 0.5 * footprint_.length && std::abs(c * dy - s * dx) <= 0.5 * footprint_.width;
+      const bool under =
+          std::abs(c * dx + s * dy) <= 0.5 * footprint_.length && std::abs(c * dy - s * dx) <= 0.5 * footprint_.width;
       if (under && !seenThrough(p)) ++count;
     }
   }

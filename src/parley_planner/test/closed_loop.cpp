@@ -75,8 +75,8 @@ double World::clearance(const Footprint& footprint, const Pose2& pose) const {
       const double dy = std::max(0.0, std::abs(p.y()) - 0.5 * footprint.width);
       if (std::hypot(dx, dy) > least + kCell) continue;
       const double h = 0.5 * kCell;
-      const Polygon square = {middle + Eigen::Vector2d(-h, -h), middle + Eigen::Vector2d(h, -h),
-                              middle + Eigen::Vector2d(h, h), middle + Eigen::Vector2d(-h, h)};
+      const Polygon square = {middle + Eigen::Vector2d(-h, -h), middle + Eigen::Vector2d(h, -h), middle + Eigen::Vector2d(h, h),
+                              middle + Eigen::Vector2d(-h, h)};
       least = std::min(least, convexDistance(body, square));
     }
   }

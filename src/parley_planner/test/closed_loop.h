@@ -40,13 +40,13 @@ struct RunSettings {
 
 struct RunResult {
   bool arrived = false;
-  int collisions = 0;           // contiguous contacts
-  double time = 0.0;            // [s] until standing at the goal
-  double length = 0.0;          // [m]
-  double least_clearance = 1e3; // [m] true
-  double standing = 0.0;        // [s]
-  double final_distance = 0.0;  // [m]
-  int refusals = 0;             // plans that ended in braking
+  int collisions = 0;            // contiguous contacts
+  double time = 0.0;             // [s] until standing at the goal
+  double length = 0.0;           // [m]
+  double least_clearance = 1e3;  // [m] true
+  double standing = 0.0;         // [s]
+  double final_distance = 0.0;   // [m]
+  int refusals = 0;              // plans that ended in braking
   std::vector<TrajectoryPoint> track;
   std::vector<SampledTrajectory> committed;
   std::vector<std::string> log;

@@ -57,8 +57,8 @@ TEST(PathFollower, RandomStartsObeyLimitsAndConverge) {
     SpeedProfile profile(path, robotLimits());
     profile.lowerBetween(3.0, 4.0, 1.0 + 0.9 * unit(random));
     profile.spread();
-    const TrajectoryPoint start{0.0, {2.2, 5.0 + 0.15 * unit(random), 0.5 * unit(random)},
-                                {1.0 + 0.8 * unit(random), 0.8 * unit(random)}};
+    const TrajectoryPoint start{
+        0.0, {2.2, 5.0 + 0.15 * unit(random), 0.5 * unit(random)}, {1.0 + 0.8 * unit(random), 0.8 * unit(random)}};
     const PathDrive drive = followPath(path, profile, start, false, robotLimits(), kStep);
     EXPECT_EQ(motionFlaw(drive.points, robotLimits()), "") << "case " << i;
     EXPECT_NEAR(drive.points.back().pose.y, 5.0, 0.02) << "case " << i;
@@ -81,8 +81,8 @@ TEST(TurnOnSpot, IsExactForAnyAngle) {
     const auto points = turnOnSpot({3.0, {1.0, 2.0, 0.4}, {}}, wrapAngle(0.4 + yaw), robotLimits(), kStep);
     EXPECT_EQ(motionFlaw(points, robotLimits()), "") << yaw;
     EXPECT_NEAR(angleBetween(points.back().pose.yaw, 0.4 + yaw), 0.0, 1e-9);
-    EXPECT_NEAR(points.back().time - 3.0, std::abs(yaw) < 0.616 ? 2.0 * std::sqrt(std::abs(yaw) / 4.0)
-                                                                : std::abs(yaw) / 1.5708 + 1.5708 / 4.0, 1e-6);
+    EXPECT_NEAR(points.back().time - 3.0,
+                std::abs(yaw) < 0.616 ? 2.0 * std::sqrt(std::abs(yaw) / 4.0) : std::abs(yaw) / 1.5708 + 1.5708 / 4.0, 1e-6);
   }
 }
 

@@ -44,8 +44,8 @@ inline std::string motionFlaw(const std::vector<TrajectoryPoint>& points, const 
     if (std::abs(b.twist.turn_rate - a.twist.turn_rate) > limits.turn_acceleration * dt * slack + 1e-9) {
       return "turn acceleration" + when;
     }
-    const Pose2 there = integrateTwist(a.pose, 0.5 * (a.twist.speed + b.twist.speed),
-                                       0.5 * (a.twist.turn_rate + b.twist.turn_rate), dt);
+    const Pose2 there =
+        integrateTwist(a.pose, 0.5 * (a.twist.speed + b.twist.speed), 0.5 * (a.twist.turn_rate + b.twist.turn_rate), dt);
     if ((there.position() - b.pose.position()).norm() > 0.02) return "pose does not follow from twist" + when;
     if (std::abs(angleBetween(there.yaw, b.pose.yaw)) > 0.02) return "heading does not follow from twist" + when;
   }

@@ -13,6 +13,7 @@ constexpr double kStandingTurnRate = 0.02;    // [rad/s]
 constexpr double kStandingTime = 0.5;         // [s]
 constexpr double kTouchedSpeed = 0.05;        // [m/s] slower than this, being hit is no fault
 constexpr double kClearanceOfInterest = 2.0;  // [m]
+constexpr double kRelease = 0.005;            // [m] bodies nearer than this after a contact are still in it
 constexpr double kSameTime = 1e-9;            // [s]
 
 bool stands(const Twist2& twist) {
@@ -52,8 +53,22 @@ std::set<Referee::Pair> Referee::contactsOf(const Snapshot& snapshot) const {
   return contacts;
 }
 
+bool Referee::isLingering(const Snapshot& snapshot, const Pair& pair) const {
+  const auto [kind, robot, other] = pair;
+  const Box box = snapshot.bodies[robot].box();
+  if (kind == ContactKind::kRobot) return distance(box, snapshot.bodies[other].box()) < kRelease;
+  if (kind == ContactKind::kMoving) return distance(box, snapshot.discs[other]) < kRelease;
+  Box grown = box;
+  grown.half_length += kRelease;
+  grown.half_width += kRelease;
+  return touchesSolid(*world_, snapshot.doors, grown);
+}
+
 void Referee::judgeContacts(const Snapshot& snapshot) {
   std::set<Pair> contacts = contactsOf(snapshot);
+  for (const Pair& pair : contacts_) {
+    if (isLingering(snapshot, pair)) contacts.insert(pair);
+  }
   for (const Pair& pair : contacts) {
     if (contacts_.count(pair) > 0) continue;
     const auto [kind, robot, other] = pair;

@@ -12,6 +12,7 @@ constexpr double kPointsPerSecond = 200000.0;
 constexpr double kLowest = -7.0 * kPi / 180.0;   // [rad]
 constexpr double kHighest = 52.0 * kPi / 180.0;  // [rad]
 constexpr double kRangeMin = 0.1;                // [m]
+constexpr int kElevations = 4096;                // [-] 0.014 degrees apart
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Steps of a two-dimensional sequence of low discrepancy: powers of the inverse of the plastic number
 constexpr double kAzimuthStep = 0.7548776662466927;
@@ -45,17 +46,23 @@ double meeting(const Crossing& inside, double height, double start_height, doubl
 }  // namespace
 
 SpatialLidar::SpatialLidar(const LidarSpec& spec, RandomStream noise) : spec_(spec), noise_(std::move(noise)) {
-  azimuth_ = noise_.uniform();
+  const double azimuth = 2.0 * kPi * noise_.uniform();
+  heading_ = {std::cos(azimuth), std::sin(azimuth)};
   elevation_ = noise_.uniform();
+  for (int i = 0; i < kElevations; ++i) {
+    const double angle = kLowest + (kHighest - kLowest) * (i + 0.5) / kElevations;
+    elevations_.emplace_back(std::cos(angle), std::sin(angle));
+  }
 }
 
 Eigen::Vector3d SpatialLidar::nextDirection() {
-  azimuth_ += kAzimuthStep;
+  // the azimuth goes on by a fixed turn, which is a complex product: no cosine a point
+  static const Eigen::Vector2d kTurn(std::cos(2.0 * kPi * kAzimuthStep), std::sin(2.0 * kPi * kAzimuthStep));
+  heading_ = {heading_.x() * kTurn.x() - heading_.y() * kTurn.y(), heading_.x() * kTurn.y() + heading_.y() * kTurn.x()};
   elevation_ += kElevationStep;
-  azimuth_ -= std::floor(azimuth_);
   elevation_ -= std::floor(elevation_);
-  const double azimuth = 2.0 * kPi * azimuth_, elevation = kLowest + (kHighest - kLowest) * elevation_;
-  return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
+  const Eigen::Vector2d& elevation = elevations_[static_cast<std::size_t>(elevation_ * kElevations)];
+  return {elevation.x() * heading_.x(), elevation.x() * heading_.y(), elevation.y()};
 }
 
 std::vector<const Standing<Box>*> SpatialLidar::boxesNear(const Motion& motion, const Scene& scene, int self) const {
@@ -96,6 +103,7 @@ void SpatialLidar::sweep(const Motion& motion, const Scene& scene, int self) {
     turn_start_ = motion.start;
     turning_ = true;
   }
+  heading_.normalize();  // rounding adds up over the points of a step
   owed_ += kPointsPerSecond * motion.duration;
   const int count = static_cast<int>(owed_);
   owed_ -= count;

@@ -50,6 +50,26 @@ TEST(RefereeTest, aContactCountsOnceUntilItEnds) {
   EXPECT_EQ(court.referee->records()[0].min_clearance, 0.0);
 }
 
+TEST(RefereeTest, bodiesThatRubAgainstEachOtherAreInOneContact) {
+  Court court({{5, 5, 0}, {8, 5, 0}});
+  for (int i = 0; i < 20; ++i) {
+    court.pose(0).x = i % 2 == 0 ? 7.2001 : 7.1999;
+    court.judge();
+  }
+  EXPECT_EQ(court.referee->collisions(ContactKind::kRobot), 1);
+  for (int i = 0; i < 20; ++i) {
+    court.pose(0) = {i % 2 == 0 ? 0.3999 : 0.4001, 5, 0};
+    court.judge();
+  }
+  EXPECT_EQ(court.referee->collisions(ContactKind::kStatic), 1);
+  court.pose(0).x = 10;
+  for (int i = 0; i < 20; ++i) {
+    court.snapshot.discs = {{{10.0, i % 2 == 0 ? 5.4999 : 5.5001}, 0.3}};
+    court.judge();
+  }
+  EXPECT_EQ(court.referee->touched(), 1);
+}
+
 TEST(RefereeTest, wallsAndDoorsAreSolid) {
   Court court({{5, 5, 0}});
   court.pose(0) = {0.39, 5, 0};

@@ -23,7 +23,7 @@ enum class LidarCode {
 
 /// A peer whose place is known well enough to keep its returns off the map.
 struct KnownTeammate {
-  Pose2 pose_odom;      // at the end of the scan
+  Pose2 pose_odom;  // at the end of the scan
   Footprint footprint;
   double margin = 0.0;  // [m] by which the footprint is grown: the pose's error
 };

@@ -43,8 +43,8 @@ struct PlanRequest {
 
 struct PlanResult {
   Status<PlanCode> status;
-  SampledTrajectory trajectory;  // to commit from start_time on; ends standing; empty if keep_committed
-  bool keep_committed = false;   // what is being driven is still right
+  SampledTrajectory trajectory;                          // to commit from start_time on; ends standing; empty if keep_committed
+  bool keep_committed = false;                           // what is being driven is still right
   Eigen::Vector2d local_goal = Eigen::Vector2d::Zero();  // [m]
   std::vector<Eigen::Vector2d> path;                     // [m] that the trajectory follows
   double speed_bound = 0.0;                              // [m/s] what sight allows at the start

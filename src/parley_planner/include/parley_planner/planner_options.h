@@ -23,7 +23,7 @@ struct PlannerOptions {
   double margin_per_speed = 0.04;  // [s]
   double creep_speed = 0.2;        // [m/s]
   double turn_on_spot = 1.2;       // [rad]
-  double replan_period = 0.1;      // [s]
+  double replan_period = 0.2;      // [s]
   double largest_deviation = 0.2;  // [m]
 
   // Others
@@ -58,7 +58,7 @@ struct PlannerOptions {
     v.number("margin_per_speed", margin_per_speed, "s", 0.0, 0.5, "distance kept in addition, per m/s");
     v.number("creep_speed", creep_speed, "m/s", 0.02, 1.0, "speed where there is hardly any room");
     v.number("turn_on_spot", turn_on_spot, "rad", 0.2, 3.2, "a path that starts further off the heading is turned to standing");
-    v.number("replan_period", replan_period, "s", 0.0, 2.0, "a valid trajectory is driven at least this long");
+    v.number("replan_period", replan_period, "s", 0.0, 2.0, "a valid trajectory is driven this long where nothing else moves");
     v.number("largest_deviation", largest_deviation, "m", 0.05, 2.0, "further off the trajectory, plans start from the odometry");
     v.number("prediction_time", prediction_time, "s", 0.0, 5.0, "how long tracked things are taken to keep their velocity");
     v.number("track_margin", track_margin, "m", 0.0, 1.0, "distance kept from the predicted place of tracked things");

@@ -61,6 +61,8 @@ class Referee {
   void judgeContacts(const Snapshot& snapshot);
   void judgeProgress(const Snapshot& snapshot, const std::vector<Pose2>& believed, double dt);
   std::set<Pair> contactsOf(const Snapshot& snapshot) const;
+  /// Whether a pair that was in contact is apart by less than counts as an end of it.
+  bool isLingering(const Snapshot& snapshot, const Pair& pair) const;
   bool isAtGoal(std::size_t robot, const Pose2& truth, const Pose2& believed) const;
 
   Scenario scenario_;

@@ -50,9 +50,10 @@ class SpatialLidar {
 
   LidarSpec spec_;
   RandomStream noise_;
-  double azimuth_ = 0.0;    // [turns]
-  double elevation_ = 0.0;  // [-] of the span
-  double owed_ = 0.0;       // [points] fraction of a point left over from the last step
+  Eigen::Vector2d heading_ = Eigen::Vector2d::UnitX();  // unit vector of the azimuth
+  double elevation_ = 0.0;                              // [-] of the span
+  std::vector<Eigen::Vector2d> elevations_;             // cosine and sine over the span
+  double owed_ = 0.0;                                   // [points] fraction of a point left over from the last step
   double turn_start_ = 0.0;
   bool turning_ = false;
   LidarCloud cloud_;

@@ -1,0 +1,56 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every launch file loads with the files that it names, and starts the nodes that it promises."""
+import glob
+import os
+import subprocess
+import tempfile
+import unittest
+
+import yaml
+
+LAUNCH = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'launch')
+ARGUMENTS = {'robot': ['model:=courier'], 'replay': ['model:=courier', 'bag:=/none.bag', 'rviz:=true'], 'simulation': [],
+             'rviz': []}
+NODES = {'robot': {'/robot'}, 'replay': {'/player', '/robot', '/rviz'}, 'simulation': {'/simulator', '/robots'},
+         'rviz': {'/rviz'}}
+
+
+def roslaunch(*words):
+    """What roslaunch prints; its log must not land in the home of who tests."""
+    with tempfile.TemporaryDirectory() as home:
+        done = subprocess.run(['/usr/bin/python3', '/usr/bin/roslaunch', *words], check=False, text=True, capture_output=True,
+                              env={**os.environ, 'ROS_HOME': home})
+    if done.returncode != 0:
+        raise AssertionError(f'roslaunch {words}: {done.stderr}{done.stdout}')
+    return done.stdout
+
+
+class LaunchFiles(unittest.TestCase):
+    def test_all_are_tested(self):
+        found = {os.path.basename(path)[:-len('.launch')] for path in glob.glob(os.path.join(LAUNCH, '*.launch'))}
+        self.assertEqual(found, set(ARGUMENTS))
+
+    def test_they_start_their_nodes(self):
+        for name, arguments in ARGUMENTS.items():
+            listed = roslaunch('--nodes', os.path.join(LAUNCH, name + '.launch'), *arguments)
+            self.assertEqual(set(listed.split()), NODES[name], name)
+
+    def test_every_robot_model_gives_each_stage_its_parameters(self):
+        for path in glob.glob(os.path.join(LAUNCH, '..', 'config', 'robots', '*.yaml')):
+            model = os.path.basename(path)[:-len('.yaml')]
+            dump = roslaunch('--dump-params', os.path.join(LAUNCH, 'robot.launch'), 'model:=' + model, 'frame_prefix:=r/')
+            parameters = yaml.safe_load(dump)
+            for stage in ('lidar', 'topology', 'planner', 'control'):
+                self.assertEqual(parameters[f'/{stage}/frames/odom'], 'r/odom')
+                self.assertGreater(parameters[f'/{stage}/robot/footprint/length'], 0.0)
+                self.assertGreater(parameters[f'/{stage}/wiring/plan_rate'], 0.0)
+            self.assertGreater(parameters['/planner/goal/tolerance'], 0.0)
+
+    def test_a_robot_without_model_is_refused(self):
+        with self.assertRaises(AssertionError):
+            roslaunch('--nodes', os.path.join(LAUNCH, 'robot.launch'))
+
+
+if __name__ == '__main__':
+    unittest.main()

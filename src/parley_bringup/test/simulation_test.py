@@ -1,0 +1,56 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""A scenario through nodelets ends as it does in lockstep, and all nodes live to its end."""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import roslib.packages
+import rosnode
+import rospy
+import rostest
+from geometry_msgs.msg import Twist
+from std_msgs.msg import String
+
+PATIENCE = 200.0   # [s] of wall time
+AGREEMENT = 0.10   # [-]
+NODES = {'/simulator', '/robots', '/robot_1/robot'}
+
+
+def fleet_run(scenario, config):
+    """The same in lockstep: its result."""
+    program = roslib.packages.find_node('parley_sim', 'fleet_run')[0]
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'result.json')
+        subprocess.run([program, scenario, '--config', config, '--json', path, '--quiet'], check=True)
+        with open(path, encoding='utf-8') as file:
+            return json.load(file)
+
+
+class SimulationTest(unittest.TestCase):
+    def test_agrees_with_lockstep(self):
+        scenario, config = rospy.myargv()[1:3]
+        result = json.loads(rospy.wait_for_message('simulator/result', String, timeout=PATIENCE).data)
+        self.assertTrue(result['success'], result)
+        self.assertTrue(all(robot['final_state'] == 'arrived' for robot in result['robots']), result['robots'])
+
+        expected = fleet_run(scenario, config)
+        for ours, theirs in zip(result['robots'], expected['robots']):
+            self.assertTrue(theirs['reached'])
+            self.assertLess(abs(ours['length'] / theirs['length'] - 1.0), AGREEMENT, (ours, theirs))
+
+        last = rospy.wait_for_message('robot_1/cmd_vel', Twist, timeout=10.0)
+        self.assertEqual(last.linear.x, 0.0)
+        running = set(rosnode.get_node_names())
+        self.assertLessEqual(NODES, running)
+        for node in NODES:
+            self.assertTrue(rosnode.rosnode_ping(node, max_count=1), f'{node} is dead')
+
+
+if __name__ == '__main__':
+    # On wall time: the run is over when the result comes, however slow the machine is.
+    rospy.init_node('simulation_test', disable_rostime=True)
+    rostest.rosrun('parley_bringup', 'simulation', SimulationTest, sys.argv)
