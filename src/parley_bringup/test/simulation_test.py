@@ -17,7 +17,7 @@ from std_msgs.msg import String
 
 PATIENCE = 200.0   # [s] of wall time
 AGREEMENT = 0.10   # [-]
-NODES = {'/simulator', '/robots', '/robot_1/robot'}
+NODES = {'/simulator', '/robot_1/robot'}
 
 
 def fleet_run(scenario, config):

@@ -127,10 +127,12 @@ TEST(LidarStage, RandomGarbageNeverBreaksIt) {
   const auto any = [&] { return values[pick(random)]; };
   LidarStage lidar = stage();
   const OdometryBuffer odometry = recorded(still(), 0.0, 10.0);
+  const RangeScan room = roomScan(0.0);
   int accepted = 0;
-  for (int round = 0; round < 3000; ++round) {
-    RangeScan scan = roomScan(0.003 * round);
-    LidarCloud cloud{0.003 * round + 0.001, {}};
+  for (int round = 0; round < 1500; ++round) {
+    RangeScan scan = room;
+    scan.stamp = 0.006 * round;
+    LidarCloud cloud{0.006 * round + 0.003, {}};
     for (int i = 0; i < 20; ++i) scan.ranges[static_cast<std::size_t>(i) * 36] = static_cast<float>(any());
     for (int i = 0; i < 20; ++i) {
       const auto x = static_cast<float>(any()), y = static_cast<float>(any()), z = static_cast<float>(any());
@@ -147,7 +149,7 @@ TEST(LidarStage, RandomGarbageNeverBreaksIt) {
       for (const float range : result.scan.ranges) ASSERT_FALSE(range < 0.0F) << "round " << round;
     }
   }
-  EXPECT_GT(accepted, 500);
+  EXPECT_GT(accepted, 250);
 }
 
 TEST(LidarStage, ScansMustComeInOrderAndTimeMayStartAgain) {

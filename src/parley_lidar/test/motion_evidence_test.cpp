@@ -64,7 +64,8 @@ World randomWorld(std::mt19937& random, const Drive& drive) {
   World world{box({-12.0, -12.0}, {12.0, 12.0}), {}};
   const auto add = [&](const Polygon& outline, const Pose2& pose) {
     if (drive.passesWithin(transformed(pose, outline), 0.47)) return;
-    world.bodies.push_back({outline, standing(pose.x, pose.y, pose.yaw)});
+    const std::vector<Wall> sides = wallsOf(outline, pose);
+    world.walls.insert(world.walls.end(), sides.begin(), sides.end());
   };
   for (int i = 0; i < 14; ++i) {
     const Pose2 pose{place(random), place(random), kPi * u(random)};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -55,6 +56,15 @@ inline PoseAt driving(const Pose2& start, double speed, double turn_rate) {
   return [=](double t) { return integrateTwist(start, speed, turn_rate, t); };
 }
 
+inline std::vector<Wall> wallsOf(const Polygon& outline, const Pose2& pose, double bottom = 0.0, double top = 2.5) {
+  const Polygon corners = transformed(pose, outline);
+  std::vector<Wall> walls;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    walls.push_back({corners[i], corners[(i + 1) % corners.size()], bottom, top});
+  }
+  return walls;
+}
+
 struct World {
   std::vector<Wall> walls;
   std::vector<Body> bodies;
@@ -62,11 +72,15 @@ struct World {
   std::vector<Wall> at(double time) const {
     std::vector<Wall> all = walls;
     for (const Body& body : bodies) {
-      const Polygon outline = transformed(body.pose(time), body.outline);
-      for (std::size_t i = 0; i < outline.size(); ++i) {
-        all.push_back({outline[i], outline[(i + 1) % outline.size()], body.bottom, body.top});
-      }
+      const std::vector<Wall> sides = wallsOf(body.outline, body.pose(time), body.bottom, body.top);
+      all.insert(all.end(), sides.begin(), sides.end());
     }
+    return all;
+  }
+  std::vector<Wall> near(const Eigen::Vector2d& place, double distance, double time) const {
+    std::vector<Wall> all = at(time);
+    const auto is_far = [&](const Wall& wall) { return pointSegmentDistance(place, wall.a, wall.b) > distance; };
+    all.erase(std::remove_if(all.begin(), all.end(), is_far), all.end());
     return all;
   }
 };
@@ -74,12 +88,14 @@ struct World {
 /// Distance along a ray of any direction to a wall or the floor, +inf if it meets none.
 inline double cast(const std::vector<Wall>& walls, const Eigen::Vector3d& from, const Eigen::Vector3d& direction) {
   double nearest = direction.z() < 0.0 ? -from.z() / direction.z() : kInf;
-  const Eigen::Vector2d d = direction.head<2>();
+  const double dx = direction.x(), dy = direction.y();
   for (const Wall& wall : walls) {
-    const Eigen::Vector2d along = wall.b - wall.a, to = wall.a - from.head<2>();
-    const double denominator = cross(d, along);
+    const double along_x = wall.b.x() - wall.a.x(), along_y = wall.b.y() - wall.a.y();
+    const double to_x = wall.a.x() - from.x(), to_y = wall.a.y() - from.y();
+    const double denominator = dx * along_y - dy * along_x;
     if (denominator == 0.0) continue;
-    const double range = cross(to, along) / denominator, where = cross(to, d) / denominator;
+    const double range = (to_x * along_y - to_y * along_x) / denominator;
+    const double where = (to_x * dy - to_y * dx) / denominator;
     const double z = from.z() + range * direction.z();
     if (range > 0.0 && where >= 0.0 && where <= 1.0 && z >= wall.bottom && z <= wall.top) {
       nearest = std::min(nearest, range);
@@ -137,12 +153,13 @@ inline RangeScan scanned(const World& world, const OdometryAt& robot, const Lida
                  lidar.range_max,
                  {}};
   std::normal_distribution<double> noise(0.0, 1.0);
-  std::vector<Wall> walls = world.at(stamp);
+  const auto walls_at = [&](double time) { return world.near(robot(time).pose.position(), lidar.range_max + 1.0, time); };
+  std::vector<Wall> walls = walls_at(stamp);
   Eigen::Isometry3d T = attitudeOf(robot(stamp)) * mountOf(lidar.mount);
   for (int i = 0; i < lidar.beams; ++i) {
     const double time = stamp + i * scan.time_increment, angle = scan.angle_min + i * scan.angle_increment;
     if (lidar.duration > 0.0) {
-      walls = world.at(time);
+      if (!world.bodies.empty()) walls = walls_at(time);
       T = attitudeOf(robot(time)) * mountOf(lidar.mount);
     }
     const double range = cast(walls, T.translation(), T.linear() * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0));

@@ -29,8 +29,7 @@ Value valueAt(const std::uint8_t* data) {
   return value;
 }
 
-std::optional<std::uint32_t> offsetOf(const PointCloud2& message, const char* name, std::uint8_t type,
-                                      std::uint32_t size) {
+std::optional<std::uint32_t> offsetOf(const PointCloud2& message, const char* name, std::uint8_t type, std::uint32_t size) {
   for (const PointField& field : message.fields) {
     const bool fits = message.point_step >= size && field.offset <= message.point_step - size;
     if (field.name == name && field.datatype == type && fits) return field.offset;
@@ -96,8 +95,7 @@ std::optional<LidarCloud> fromMessage(const PointCloud2& message) {
     const std::uint8_t* point = message.data.data() + static_cast<std::size_t>(row) * message.row_step;
     for (std::uint32_t column = 0; column < message.width; ++column, point += message.point_step) {
       cloud.points.push_back({valueAt<float>(point + layout->x), valueAt<float>(point + layout->y),
-                              valueAt<float>(point + layout->z),
-                              static_cast<float>(timeOf(point, *layout, cloud.stamp))});
+                              valueAt<float>(point + layout->z), static_cast<float>(timeOf(point, *layout, cloud.stamp))});
     }
   }
   return cloud;

@@ -20,8 +20,7 @@ ControlNode::ControlNode(ros::NodeHandle nh, const ros::NodeHandle& pnh, const s
       odometry_(nh, config_.node) {
   trajectory_subscriber_ = nh.subscribe<parley_msgs::Trajectory>(
       "trajectory", 1, [this](const parley_msgs::TrajectoryConstPtr& m) { new_trajectory_.put(m); });
-  goal_subscriber_ =
-      nh.subscribe<parley_msgs::Goal>("goal", 1, [this](const parley_msgs::GoalConstPtr& m) { new_goal_.put(m); });
+  goal_subscriber_ = nh.subscribe<parley_msgs::Goal>("goal", 1, [this](const parley_msgs::GoalConstPtr& m) { new_goal_.put(m); });
   obstacles_subscriber_ = nh.subscribe<parley_msgs::ObstacleScan>(
       "obstacles", 1, [this](const parley_msgs::ObstacleScanConstPtr& m) { new_scan_.put(m); });
   inputs_.expect<nav_msgs::Odometry>(odometry_.subscriber());

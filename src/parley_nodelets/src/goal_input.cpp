@@ -94,8 +94,7 @@ void GoalInput::Parts::onPreempt() {
   if (!replaced) order(std::nullopt);
 }
 
-GoalInput::GoalInput(const ros::NodeHandle& nh, const std::string& odom_frame)
-    : parts_(std::make_unique<Parts>(nh, odom_frame)) {
+GoalInput::GoalInput(const ros::NodeHandle& nh, const std::string& odom_frame) : parts_(std::make_unique<Parts>(nh, odom_frame)) {
   Parts* parts = parts_.get();
   parts->action.registerGoalCallback([parts] { parts->onAction(); });
   parts->action.registerPreemptCallback([parts] { parts->onPreempt(); });

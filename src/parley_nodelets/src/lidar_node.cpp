@@ -20,11 +20,10 @@ LidarNode::LidarNode(ros::NodeHandle nh, const ros::NodeHandle& pnh, const std::
       tracks_(nh.advertise<parley_msgs::TrackedObjects>("tracks", 1)),
       odometry_(nh, config_.node) {
   const auto wake = [this] { worker_.post([this] { process(); }); };
-  scan_subscriber_ =
-      nh.subscribe<sensor_msgs::LaserScan>("scan", 1, [this, wake](const sensor_msgs::LaserScanConstPtr& m) {
-        scan_.put(m);
-        wake();
-      });
+  scan_subscriber_ = nh.subscribe<sensor_msgs::LaserScan>("scan", 1, [this, wake](const sensor_msgs::LaserScanConstPtr& m) {
+    scan_.put(m);
+    wake();
+  });
   cloud_subscriber_ =
       nh.subscribe<sensor_msgs::PointCloud2>("points", 1, [this, wake](const sensor_msgs::PointCloud2ConstPtr& m) {
         cloud_.put(m);

@@ -72,8 +72,7 @@ parley_msgs::Graph toMessage(const VisibilityGraph& graph, double stamp, const s
   for (const Vertex& vertex : graph.vertices()) {
     parley_msgs::GraphVertex& part = message.vertices.emplace_back();
     part.id = vertex.id;
-    part.kind =
-        vertex.kind == VertexClass::kPillar ? parley_msgs::GraphVertex::PILLAR : parley_msgs::GraphVertex::CORNER;
+    part.kind = vertex.kind == VertexClass::kPillar ? parley_msgs::GraphVertex::PILLAR : parley_msgs::GraphVertex::CORNER;
     part.position.x = vertex.position.x();
     part.position.y = vertex.position.y();
     part.origin = vertex.provenance.origin;

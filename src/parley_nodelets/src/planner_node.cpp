@@ -20,9 +20,9 @@ PlannerConfig loadPlannerConfig(const ros::NodeHandle& pnh) {
   return config;
 }
 
-bool isStuck(PlanCode code) {
-  return code == PlanCode::kNoRoute || code == PlanCode::kNoPath || code == PlanCode::kBlocked;
-}
+constexpr double kLookAround = 0.2;  // [-] of the planning period: where no scan comes, the trigger is asked so often
+
+bool isStuck(PlanCode code) { return code == PlanCode::kNoRoute || code == PlanCode::kNoPath || code == PlanCode::kBlocked; }
 
 }  // namespace
 
@@ -33,25 +33,30 @@ PlannerNode::PlannerNode(ros::NodeHandle nh, const ros::NodeHandle& pnh, const s
       inputs_(nh, name),
       planner_(std::make_unique<Planner>(config_.stage, config_.node.footprint, config_.node.limits)),
       goal_(std::make_unique<GoalTracker>(config_.goal.tolerance, config_.node.wiring.arrival_hysteresis)),
+      trigger_(config_.node.wiring.plan_rate),
       trajectory_(nh.advertise<parley_msgs::Trajectory>("trajectory", 1)),
       path_(nh.advertise<nav_msgs::Path>("trajectory_path", 1, true)),
       goal_publisher_(nh.advertise<parley_msgs::Goal>("goal", 1, true)),
       odometry_(nh, config_.node) {
-  const auto feed = [this, &nh](const std::string& topic, auto& latest) {
+  const auto feed = [this, &nh](const std::string& topic, auto& latest, const Worker::Work& then) {
     using Pointer = decltype(latest.take());
     using Message = std::remove_const_t<typename Pointer::element_type>;
-    subscribers_.push_back(nh.subscribe<Message>(topic, 1, [&latest](const Pointer& m) { latest.put(m); }));
+    subscribers_.push_back(nh.subscribe<Message>(topic, 1, [&latest, then](const Pointer& m) {
+      latest.put(m);
+      then();
+    }));
     inputs_.expect<Message>(subscribers_.back());
   };
-  feed("obstacles", new_scan_);
-  feed("tracks", new_tracks_);
-  feed("local_map", new_map_);
-  feed("route", new_route_);
+  feed("obstacles", new_scan_, [] {});
+  feed("tracks", new_tracks_, [] {});
+  feed("route", new_route_, [] {});
+  // The map comes last of what a scan brings about: with it, all is there to plan on.
+  feed("local_map", new_map_, [this] { worker_.post([this] { step(); }); });
   inputs_.expect<nav_msgs::Odometry>(odometry_.subscriber());
   diagnostics_.setHardwareID(config_.node.frames.base);
   diagnostics_.add("stage", [this](Report& status) { report(status); });
   orders_ = std::make_unique<GoalInput>(nh, config_.node.frames.odom);
-  worker_.every(nh, 1.0 / config_.node.wiring.plan_rate, [this] { step(); });
+  worker_.every(nh, kLookAround / config_.node.wiring.plan_rate, [this] { step(); });
   worker_.every(nh, 1.0, [this] { diagnostics_.update(); });
   worker_.start();
 }
@@ -65,7 +70,8 @@ void PlannerNode::step() {
   takeOrder(now);
   takeInputs(odometry.buffer);
   plan_.advance(now);
-  if (odometry.buffer.empty() || !scan_ || !map_ || !goal_->goal()) return;
+  if (odometry.buffer.empty() || !scan_ || !map_ || !goal_->goal() || !trigger_.due(now, map_is_new_)) return;
+  map_is_new_ = false;
   const Odometry& present = odometry.buffer.latest();
   last_plan_ = goal_->update(present) ? arrivedPlan() : plan(now, present);
   const TimedPlan timed{last_plan_, now, now + config_.node.wiring.plan_delay};
@@ -88,35 +94,53 @@ void PlannerNode::takeOrder(double now) {
   publishGoal(now);
 }
 
+bool PlannerNode::isCurrent(const std_msgs::Header& header) const {
+  return header.frame_id == config_.node.frames.odom && continuity_.isCurrent(header.stamp.toSec());
+}
+
 void PlannerNode::takeInputs(const OdometryBuffer& odometry) {
-  if (const auto message = new_scan_.take()) {
-    std::optional<ObstacleScan> scan = fromMessage(*message);
-    const std::optional<Odometry> at_scan = scan ? odometry.at(scan->stamp) : std::nullopt;
-    if (at_scan && continuity_.isCurrent(scan->stamp) && message->header.frame_id == config_.node.frames.base) {
-      scan_ = std::move(scan);
-      T_odom_scan_ = at_scan->pose;
+  takeScan(odometry);
+  if (const auto message = new_tracks_.take()) {
+    auto tracks = fromMessage(*message);
+    if (tracks && isCurrent(message->header)) {
+      tracks_ = std::move(*tracks);
     } else {
       ++rejected_;
     }
   }
-  const auto inOdom = [this](const std_msgs::Header& header) {
-    return header.frame_id == config_.node.frames.odom && continuity_.isCurrent(header.stamp.toSec());
-  };
-  if (const auto message = new_tracks_.take()) {
-    const auto tracks = fromMessage(*message);
-    tracks&& inOdom(message->header) ? void(tracks_ = *tracks) : void(++rejected_);
-  }
   if (const auto message = new_map_.take()) {
-    const auto map = fromMessage(*message);
-    map&& inOdom(message->header) ? void(map_ = map) : void(++rejected_);
-  }
-  if (const auto message = new_route_.take()) {
-    const auto route = fromMessage(*message);
-    if (!route || !inOdom(message->header)) {
+    auto map = fromMessage(*message);
+    if (map && isCurrent(message->header)) {
+      map_ = std::move(map);
+      map_is_new_ = true;
+    } else {
       ++rejected_;
-    } else if (goal_->goal() && (route->goal - *goal_->goal()).norm() < 1e-6) {
-      route_ = route->route;  // a route to the goal before this one is of no use, and no fault
     }
+  }
+  takeRoute();
+}
+
+void PlannerNode::takeScan(const OdometryBuffer& odometry) {
+  const auto message = new_scan_.take();
+  if (!message) return;
+  std::optional<ObstacleScan> scan = fromMessage(*message);
+  const std::optional<Odometry> at_scan = scan ? odometry.at(scan->stamp) : std::nullopt;
+  if (!at_scan || !continuity_.isCurrent(scan->stamp) || message->header.frame_id != config_.node.frames.base) {
+    ++rejected_;
+    return;
+  }
+  scan_ = std::move(scan);
+  T_odom_scan_ = at_scan->pose;
+}
+
+void PlannerNode::takeRoute() {
+  const auto message = new_route_.take();
+  if (!message) return;
+  const auto route = fromMessage(*message);
+  if (!route || !isCurrent(message->header)) {
+    ++rejected_;
+  } else if (goal_->goal() && (route->goal - *goal_->goal()).norm() < 1e-6) {
+    route_ = route->route;  // a route to the goal before this one is of no use, and no fault
   }
 }
 
@@ -177,6 +201,7 @@ void PlannerNode::answerAction(double now, const Odometry& odometry, const PlanR
 void PlannerNode::forget() {
   planner_->reset();
   plan_.clear();
+  trigger_ = PlanTrigger(config_.node.wiring.plan_rate);
   scan_.reset();
   map_.reset();
   tracks_.clear();

@@ -33,8 +33,7 @@ std::optional<Attitude> attitudeOf(const geometry_msgs::Quaternion& rotation) {
   const Eigen::Quaterniond raw(rotation.w, rotation.x, rotation.y, rotation.z);
   if (!(std::abs(raw.norm() - 1.0) < 0.1)) return std::nullopt;  // NaN too
   const Eigen::Matrix3d r = raw.normalized().toRotationMatrix();
-  return Attitude{std::atan2(r(2, 1), r(2, 2)), std::asin(std::clamp(-r(2, 0), -1.0, 1.0)),
-                  std::atan2(r(1, 0), r(0, 0))};
+  return Attitude{std::atan2(r(2, 1), r(2, 2)), std::asin(std::clamp(-r(2, 0), -1.0, 1.0)), std::atan2(r(1, 0), r(0, 0))};
 }
 
 std::optional<Odometry> fromMessage(const nav_msgs::Odometry& message) {

@@ -74,8 +74,7 @@ std::optional<ObstacleScan> fromMessage(const parley_msgs::ObstacleScan& message
   return scan;
 }
 
-parley_msgs::TrackedObjects toMessage(const std::vector<TrackedObject>& tracks, double stamp,
-                                      const std::string& odom_frame) {
+parley_msgs::TrackedObjects toMessage(const std::vector<TrackedObject>& tracks, double stamp, const std::string& odom_frame) {
   parley_msgs::TrackedObjects message;
   message.header = headerOf(stamp, odom_frame);
   for (const TrackedObject& track : tracks) {

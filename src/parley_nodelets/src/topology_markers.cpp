@@ -95,9 +95,8 @@ visualization_msgs::MarkerArray topologyMarkers(const std::vector<Contour>& cont
   header.stamp = toRosTime(stamp);
   header.frame_id = odom_frame;
   visualization_msgs::MarkerArray markers;
-  markers.markers = {drawContours(contours, most_points).finished(header),
-                     drawEdges(graph, most_points).finished(header), drawVertices(graph, most_points).finished(header),
-                     drawRoute(route, most_points).finished(header)};
+  markers.markers = {drawContours(contours, most_points).finished(header), drawEdges(graph, most_points).finished(header),
+                     drawVertices(graph, most_points).finished(header), drawRoute(route, most_points).finished(header)};
   return markers;
 }
 

@@ -32,8 +32,7 @@ TopologyNode::TopologyNode(ros::NodeHandle nh, const ros::NodeHandle& pnh, const
         obstacles_.put(m);
         worker_.post([this] { integrate(); });
       });
-  goal_subscriber_ =
-      nh.subscribe<parley_msgs::Goal>("goal", 1, [this](const parley_msgs::GoalConstPtr& m) { new_goal_.put(m); });
+  goal_subscriber_ = nh.subscribe<parley_msgs::Goal>("goal", 1, [this](const parley_msgs::GoalConstPtr& m) { new_goal_.put(m); });
   inputs_.expect<nav_msgs::Odometry>(odometry_.subscriber());
   inputs_.expect<parley_msgs::ObstacleScan>(obstacles_subscriber_);
   diagnostics_.setHardwareID(config_.node.frames.base);
@@ -97,8 +96,7 @@ void TopologyNode::publishRoute(const Pose2& T_odom_base, double now) {
   if (!goal_) return;
   route_ = topology_->route(T_odom_base, *goal_, now);
   const RouteToGoal route{route_, *goal_};
-  route_publisher_.publish(
-      boost::make_shared<parley_msgs::Route>(toMessage(route, *newest_scan_, config_.node.frames.odom)));
+  route_publisher_.publish(boost::make_shared<parley_msgs::Route>(toMessage(route, *newest_scan_, config_.node.frames.odom)));
 }
 
 void TopologyNode::publishPictures() {
@@ -107,8 +105,8 @@ void TopologyNode::publishPictures() {
     graph_.publish(boost::make_shared<parley_msgs::Graph>(toMessage(topology_->graph(), *newest_scan_, odom)));
   }
   if (markers_.getNumSubscribers() > 0) {
-    markers_.publish(boost::make_shared<visualization_msgs::MarkerArray>(topologyMarkers(
-        topology_->fusedContours(), topology_->graph(), route_, *newest_scan_, odom, kMostMarkerPoints)));
+    markers_.publish(boost::make_shared<visualization_msgs::MarkerArray>(
+        topologyMarkers(topology_->fusedContours(), topology_->graph(), route_, *newest_scan_, odom, kMostMarkerPoints)));
   }
 }
 

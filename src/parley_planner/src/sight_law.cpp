@@ -20,6 +20,7 @@ constexpr double kWallBehind = 0.3;     // [m] behind the robot's middle nothing
 constexpr double kWallHalfWidth = 1.2;  // [m]
 constexpr double kApproaching = 0.3;    // [m/s]
 constexpr int kNewTrack = 4;            // scans before a thing's velocity is believed
+constexpr double kTrackRim = 0.5;       // [m] its own returns close the cells round a thing off up to here
 
 int cost(double metres) { return static_cast<int>(std::lround(metres / kUnit)); }
 
@@ -175,13 +176,24 @@ void SightLaw::observe(const Surroundings& surroundings, const ObstacleScan& sca
     const Eigen::Vector2d there = track.position + track.velocity * (now - track.stamp);
     const Eigen::Vector2d towards = (pose.position() - there).normalized();
     const bool approaches = track.moving && track.velocity.dot(towards) > kApproaching;
-    const Eigen::Vector2i cell = frame_.cellOf(there);
-    if (frame_.contains(cell) && (approaches || track.observations < kNewTrack)) {
-      sources[static_cast<std::size_t>(frame_.indexOf(cell))] = 0;
-    }
+    if (approaches || track.observations < kNewTrack) addIntruder(there, track.radius + kTrackRim, prices, sources);
   }
   gaps_ = spread(sources, prices, kFar);
   updated_at_ = now;
+}
+
+void SightLaw::addIntruder(const Eigen::Vector2d& there, double reach, const Mask& prices, Costs& sources) const {
+  const Eigen::Vector2i low = frame_.cellOf(there - Eigen::Vector2d::Constant(reach));
+  const Eigen::Vector2i high = frame_.cellOf(there + Eigen::Vector2d::Constant(reach));
+  for (int y = low.y(); y <= high.y(); ++y) {
+    for (int x = low.x(); x <= high.x(); ++x) {
+      if (!frame_.contains({x, y}) || prices[static_cast<std::size_t>(frame_.indexOf({x, y}))] == 0) continue;
+      const double distance = (frame_.centerOf({x, y}) - there).norm();
+      if (distance > reach) continue;
+      int& known = sources[static_cast<std::size_t>(frame_.indexOf({x, y}))];
+      known = std::min(known, cost(distance));
+    }
+  }
 }
 
 double SightLaw::speedFor(double gap) const {

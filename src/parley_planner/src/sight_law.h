@@ -49,6 +49,8 @@ class SightLaw {
   Mask hidden(const ObstacleScan& scan, const Pose2& T_odom_scan) const;
   /// Driving distance from the nearest source, in units of a tenth of a cell, through cells whose price is not zero.
   Costs spread(const Costs& sources, const Mask& prices, int most) const;
+  /// Something seen at `there` may drive off from all round it: lowers `sources` within `reach` [m].
+  void addIntruder(const Eigen::Vector2d& there, double reach, const Mask& prices, Costs& sources) const;
 
   SightLawOptions options_;
   MotionLimits limits_;

@@ -26,7 +26,7 @@ RobotStack::RobotStack(const RobotOptions& options)
       controller_(options.control, options.footprint, options.limits),
       goal_(options.goal_tolerance, options.wiring.arrival_hysteresis),
       topology_timer_(options.wiring.topology_rate),
-      plan_timer_(options.wiring.plan_rate) {}
+      plan_trigger_(options.wiring.plan_rate) {}
 
 bool RobotStack::setGoal(const Eigen::Vector2d& goal_odom) {
   if (!goal_.set(goal_odom)) return false;
@@ -105,6 +105,7 @@ void RobotStack::sense(StageTimes& times) {
   }
   lidar_result_ = std::move(result);
   T_odom_scan_ = at_scan->pose;
+  scan_is_new_ = true;
   times.map_fusion = timed([&] { topology_.integrate(lidar_result_.scan, *T_odom_scan_); });
 }
 
@@ -120,7 +121,8 @@ void RobotStack::updateTopology(double now, StageTimes& times) {
 }
 
 void RobotStack::planMotion(double now, StageTimes& times) {
-  if (odometry_.empty() || !T_odom_scan_ || !goal_.goal() || !plan_timer_.due(now)) return;
+  if (odometry_.empty() || !T_odom_scan_ || !goal_.goal() || !plan_trigger_.due(now, scan_is_new_)) return;
+  scan_is_new_ = false;
   const double start_time = now + options_.wiring.plan_delay;
   if (goal_.update(odometry_.latest())) {
     last_plan_ = arrivedPlan();
@@ -177,7 +179,7 @@ void RobotStack::startAnew() {
   forgetMap();
   pending_scan_ = std::monostate{};
   topology_timer_ = Periodic(options_.wiring.topology_rate);
-  plan_timer_ = Periodic(options_.wiring.plan_rate);
+  plan_trigger_ = PlanTrigger(options_.wiring.plan_rate);
 }
 
 }  // namespace parley

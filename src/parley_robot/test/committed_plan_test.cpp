@@ -84,6 +84,25 @@ TEST(Periodic, RunsAtItsRateAndDoesNotBurstAfterAPause) {
   EXPECT_TRUE(timer.due(1.0)) << "time went back";
 }
 
+TEST(PlanTrigger, PlansOnEachScanAndWithoutScansAtAboutTheRate) {
+  PlanTrigger with_scans(10.0), without(10.0);
+  int planned = 0, blind = 0;
+  for (int i = 0; i < 100; ++i) {
+    planned += with_scans.due(0.02 * i, i % 5 == 3) ? 1 : 0;
+    blind += without.due(0.02 * i, false) ? 1 : 0;
+  }
+  EXPECT_NEAR(planned, 20, 1);
+  EXPECT_NEAR(blind, 17, 1);
+  EXPECT_TRUE(without.due(0.5, false)) << "time went back";
+}
+
+TEST(PlanTrigger, ScansThatComeTooFastDoNotRaiseTheRateBeyondTwice) {
+  PlanTrigger trigger(10.0);
+  int planned = 0;
+  for (int i = 0; i < 1000; ++i) planned += trigger.due(0.002 * i, true) ? 1 : 0;
+  EXPECT_NEAR(planned, 40, 1);
+}
+
 }  // namespace
 }  // namespace parley
 

@@ -22,6 +22,7 @@
 #include "parley_planner/planner.h"
 #include "parley_robot/committed_plan.h"
 #include "parley_robot/goal_tracker.h"
+#include "parley_robot/periodic.h"
 
 namespace parley {
 
@@ -56,6 +57,9 @@ class PlannerNode {
   void step();
   void takeOrder(double now);
   void takeInputs(const OdometryBuffer& odometry);
+  void takeScan(const OdometryBuffer& odometry);
+  void takeRoute();
+  bool isCurrent(const std_msgs::Header& header) const;
   PlanResult plan(double now, const Odometry& odometry);
   void publish(const TimedPlan& plan);
   void publishGoal(double now);
@@ -72,9 +76,11 @@ class PlannerNode {
   std::unique_ptr<GoalTracker> goal_;
   CommittedPlan plan_;
   Continuity continuity_;
+  PlanTrigger trigger_;
   std::optional<ObstacleScan> scan_;
   Pose2 T_odom_scan_;
   std::optional<LocalMap> map_;
+  bool map_is_new_ = false;  // nothing has been planned on it yet
   std::vector<TrackedObject> tracks_;
   Route route_;
   PlanResult last_plan_;

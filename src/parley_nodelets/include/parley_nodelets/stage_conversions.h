@@ -41,8 +41,7 @@ std::optional<RouteToGoal> fromMessage(const parley_msgs::Route& message);
 std::optional<TimedPlan> fromMessage(const parley_msgs::Trajectory& message);
 
 parley_msgs::ObstacleScan toMessage(const ObstacleScan& scan, const std::string& base_frame);
-parley_msgs::TrackedObjects toMessage(const std::vector<TrackedObject>& tracks, double stamp,
-                                      const std::string& odom_frame);
+parley_msgs::TrackedObjects toMessage(const std::vector<TrackedObject>& tracks, double stamp, const std::string& odom_frame);
 parley_msgs::Route toMessage(const RouteToGoal& route, double stamp, const std::string& odom_frame);
 parley_msgs::Trajectory toMessage(const TimedPlan& plan, const std::string& odom_frame);
 parley_msgs::RobotState toMessage(const ControlResult& result, double stamp, const std::string& base_frame);

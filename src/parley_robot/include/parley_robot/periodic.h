@@ -19,4 +19,23 @@ class Periodic {
   double next_ = -1e9;  // [s]
 };
 
+/// Says when to plan: at once when there is a new scan, so that nothing seen has to wait for a timer's turn, but not much
+/// more often than the rate; and at about the rate when no scan comes.
+class PlanTrigger {
+ public:
+  explicit PlanTrigger(double rate) : period_(1.0 / rate) {}
+
+  bool due(double now, bool new_scan) {
+    const double waited = now - last_;
+    const bool early = waited >= 0.0 && waited + 1e-9 < (new_scan ? 0.5 : 1.2) * period_;
+    if (early) return false;
+    last_ = now;
+    return true;
+  }
+
+ private:
+  double period_;       // [s]
+  double last_ = -1e9;  // [s]
+};
+
 }  // namespace parley

@@ -80,10 +80,11 @@ class RobotStack {
   GoalTracker goal_;
   CommittedPlan plan_;
   Periodic topology_timer_;
-  Periodic plan_timer_;
+  PlanTrigger plan_trigger_;
 
   std::variant<std::monostate, RangeScan, LidarCloud> pending_scan_;
   LidarResult lidar_result_;
+  bool scan_is_new_ = false;  // nothing has been planned on it yet
   std::optional<Pose2> T_odom_scan_;
   Route route_;
   PlanResult last_plan_;

@@ -18,7 +18,7 @@ struct TopologyOptions {
   int free_below = -2;         // [-]
   double clear_margin = 0.05;  // [m]
 
-  double margin = 0.02;         // [m]
+  double margin = 0.01;         // [m]
   double simplify = 0.04;       // [m]
   double max_edge = 30.0;       // [m]
   double clearance_cap = 1.5;   // [m]
