@@ -30,8 +30,7 @@ Eigen::Matrix3d rotation(double yaw) {
 PoseEstimate compose(const PoseEstimate& T_a_b, const PoseEstimate& T_b_c) {
   const Eigen::Matrix3d left = compositionJacobianLeft(T_a_b.pose, T_b_c.pose);
   const Eigen::Matrix3d right = rotation(T_a_b.pose.yaw);
-  return {T_a_b.pose * T_b_c.pose,
-          left * T_a_b.covariance * left.transpose() + right * T_b_c.covariance * right.transpose()};
+  return {T_a_b.pose * T_b_c.pose, left * T_a_b.covariance * left.transpose() + right * T_b_c.covariance * right.transpose()};
 }
 
 PoseEstimate inverse(const PoseEstimate& T_a_b) {

@@ -65,8 +65,8 @@ std::optional<Odometry> OdometryBuffer::at(double time) const {
     ahead.pose = integrateTwist(newest.pose, newest.twist.speed, newest.twist.turn_rate, time - newest.stamp);
     return ahead;
   }
-  const auto after = std::lower_bound(readings_.begin(), readings_.end(), time,
-                                      [](const Odometry& o, double t) { return o.stamp < t; });
+  const auto after =
+      std::lower_bound(readings_.begin(), readings_.end(), time, [](const Odometry& o, double t) { return o.stamp < t; });
   if (after == readings_.begin() || after->stamp == time) return *after;
   return between(*std::prev(after), *after, time);
 }

@@ -18,8 +18,7 @@ bool onSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::
 bool hasSeparatingEdge(const Polygon& a, const Polygon& b) {
   for (std::size_t i = 0; i < a.size(); ++i) {
     const Eigen::Vector2d edge = next(a, i) - a[i];
-    const bool separates =
-        std::all_of(b.begin(), b.end(), [&](const Eigen::Vector2d& p) { return cross(edge, p - a[i]) < 0.0; });
+    const bool separates = std::all_of(b.begin(), b.end(), [&](const Eigen::Vector2d& p) { return cross(edge, p - a[i]) < 0.0; });
     if (separates) return true;
   }
   return false;

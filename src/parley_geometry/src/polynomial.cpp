@@ -27,8 +27,7 @@ QuinticPiece QuinticPiece::between(const FlatState& start, const FlatState& end,
 FlatState QuinticPiece::at(double t) const {
   const auto& c = coefficients_;
   FlatState state;
-  state.position =
-      c.col(0) + t * (c.col(1) + t * (c.col(2) + t * (c.col(3) + t * (c.col(4) + t * c.col(5)))));
+  state.position = c.col(0) + t * (c.col(1) + t * (c.col(2) + t * (c.col(3) + t * (c.col(4) + t * c.col(5)))));
   state.velocity = c.col(1) + t * (2.0 * c.col(2) + t * (3.0 * c.col(3) + t * (4.0 * c.col(4) + t * 5.0 * c.col(5))));
   state.acceleration = 2.0 * c.col(2) + t * (6.0 * c.col(3) + t * (12.0 * c.col(4) + t * 20.0 * c.col(5)));
   return state;

@@ -29,8 +29,8 @@ TrajectoryPoint SampledTrajectory::at(double time) const {
   assert(!points_.empty());
   if (time < points_.front().time) return {time, points_.front().pose, {}};
   if (time > points_.back().time) return {time, points_.back().pose, {}};
-  const auto after = std::lower_bound(points_.begin(), points_.end(), time,
-                                      [](const TrajectoryPoint& p, double t) { return p.time < t; });
+  const auto after =
+      std::lower_bound(points_.begin(), points_.end(), time, [](const TrajectoryPoint& p, double t) { return p.time < t; });
   return after == points_.begin() ? *after : between(*std::prev(after), *after, time);
 }
 
@@ -51,9 +51,7 @@ SampledTrajectory SampledTrajectory::from(double time) const {
   return SampledTrajectory(std::move(rest));
 }
 
-SampledTrajectory SampledTrajectory::standing(const Pose2& pose, double time) {
-  return SampledTrajectory({{time, pose, {}}});
-}
+SampledTrajectory SampledTrajectory::standing(const Pose2& pose, double time) { return SampledTrajectory({{time, pose, {}}}); }
 
 SampledTrajectory brakingTrajectory(const TrajectoryPoint& from, const MotionLimits& limits, double time_step) {
   assert(time_step > 0.0 && limits.acceleration > 0.0 && limits.turn_acceleration > 0.0);
@@ -66,7 +64,8 @@ SampledTrajectory brakingTrajectory(const TrajectoryPoint& from, const MotionLim
     const double kept = std::abs(before.speed) > 1e-9 ? before.turn_rate * p.twist.speed / before.speed : 0.0;
     const double change = limits.turn_acceleration * time_step;
     p.twist.turn_rate = std::clamp(kept, before.turn_rate - change, before.turn_rate + change);
-    p.pose = integrateTwist(p.pose, 0.5 * (before.speed + p.twist.speed), 0.5 * (before.turn_rate + p.twist.turn_rate), time_step);
+    p.pose =
+        integrateTwist(p.pose, 0.5 * (before.speed + p.twist.speed), 0.5 * (before.turn_rate + p.twist.turn_rate), time_step);
     p.time += time_step;
     points.push_back(p);
   }

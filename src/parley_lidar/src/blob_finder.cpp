@@ -107,16 +107,19 @@ std::vector<BlobShape> findBlobs(const BinnedScan& scan, const LidarOptions& opt
   while (start < count && isJoined(at(start + count - 1), at(start), options.blob_jump)) ++start;
   std::vector<BlobShape> blobs;
   if (start == count) return blobs;  // nothing seen, or one surface all around
-  for (std::size_t first = start, last; first < start + count; first = last + 1) {
-    for (last = first; last + 1 < start + count && isJoined(at(last), at(last + 1), options.blob_jump);) ++last;
+  for (std::size_t first = start; first < start + count;) {
+    std::size_t last = first;
+    while (last + 1 < start + count && isJoined(at(last), at(last + 1), options.blob_jump)) ++last;
     const Look &before = at(first + count - 1), &after = at(last + 1);
     const bool stands_off = at(first).hit && !at(first).gap && !after.gap && before.range > at(first).range + options.blob_jump &&
                             after.range > at(last).range + options.blob_jump;
-    if (!stands_off || static_cast<int>(last - first) + 1 < options.blob_min_beams) continue;
-    Looks group;
-    for (std::size_t i = first; i <= last; ++i) group.push_back(at(i));
-    const BlobShape shape = shapeOf(scan, group);
-    if (hasBlobSize(shape, options)) blobs.push_back(shape);
+    if (stands_off && static_cast<int>(last - first) + 1 >= options.blob_min_beams) {
+      Looks group;
+      for (std::size_t i = first; i <= last; ++i) group.push_back(at(i));
+      const BlobShape shape = shapeOf(scan, group);
+      if (hasBlobSize(shape, options)) blobs.push_back(shape);
+    }
+    first = last + 1;
   }
   return blobs;
 }

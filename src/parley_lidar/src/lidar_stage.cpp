@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "parley_lidar/lidar_stage.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "blob_finder.h"
@@ -112,6 +114,7 @@ class LidarStage::Pipeline {
 
   void follow(const std::vector<BlobShape>& blobs, double stamp, const Pose2& T_odom_base) {
     std::vector<Sighting> sightings;
+    sightings.reserve(blobs.size());
     for (const BlobShape& shape : blobs) sightings.push_back(sightingOf(shape, T_odom_base, stamp));
     tracker_.update(std::move(sightings), history_, T_odom_base.position());
   }

@@ -70,7 +70,7 @@ void Track::update(const Sighting& sighting) {
 }
 
 void Track::setMoving(double stamp) {
-  object_.moving = true;
+  object_.moving = object_.has_moved = true;
   last_moved_ = stamp;
 }
 

@@ -11,7 +11,7 @@ namespace {
 constexpr double kGrazing = 0.0872;  // sine of 5 degrees: a wall met at this angle is still seen as one
 constexpr double kRound = 1e-9;      // [s]
 
-/// Distance between two returns `steps` bins apart. [m]
+/// Distance between two returns `angle` [rad] apart. [m]
 double gap(double range_a, double range_b, double angle) {
   return std::sqrt(std::max(0.0, range_a * range_a + range_b * range_b - 2.0 * range_a * range_b * std::cos(angle)));
 }

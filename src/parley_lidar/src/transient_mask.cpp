@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "transient_mask.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "binned_scan.h"

@@ -90,6 +90,7 @@ TEST_F(ObjectTrackerTest, MovesOnceDisplacedAndSeenThroughAndSettlesAfterItStopp
     EXPECT_TRUE(moving || i < 4 || i > 35) << t;
     if (!moving && stopped == 0.0 && i > 10) stopped = t;
   }
+  EXPECT_TRUE(tracker_.tracks()[0].object().has_moved) << "that is remembered";
   EXPECT_GT(stopped, 1.0 + options_.moving_hold - 0.2);
   EXPECT_LT(stopped, 1.0 + options_.moving_hold + options_.moving_window + 0.2);
 }

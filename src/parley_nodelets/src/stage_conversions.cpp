@@ -87,6 +87,7 @@ parley_msgs::TrackedObjects toMessage(const std::vector<TrackedObject>& tracks, 
     object.radius = track.radius;
     object.observations = track.observations;
     object.moving = track.moving;
+    object.has_moved = track.has_moved;
   }
   return message;
 }
@@ -102,6 +103,7 @@ std::optional<std::vector<TrackedObject>> fromMessage(const parley_msgs::Tracked
     track.radius = object.radius;
     track.observations = object.observations;
     track.moving = object.moving;
+    track.has_moved = object.has_moved;
     if (!track.position.allFinite() || !track.velocity.allFinite() || !(track.radius >= 0.0)) return std::nullopt;
     tracks.push_back(track);
   }

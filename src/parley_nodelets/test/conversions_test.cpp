@@ -176,7 +176,7 @@ TEST(TracksMessage, ComesBackAndRefusesWhatIsNotFinite) {
   track.velocity = {0.5, 0.0};
   track.radius = 0.3;
   track.observations = 9;
-  track.moving = true;
+  track.moving = track.has_moved = true;
   auto message = toMessage({track}, 2.5, "odom");
   const auto back = fromMessage(message);
   ASSERT_TRUE(back);

@@ -34,7 +34,7 @@ double DriveGenerator::trackClearance(const TrajectoryPoint& point, const DriveS
   double least = 1e3;
   if (point.time - start_time > scene.prediction_time) return least;
   for (const TrackedObject& track : scene.tracks) {
-    if (!track.moving) continue;  // a standing one is in the scan like a wall
+    if (!track.has_moved) continue;  // what never moved is in the scan like a wall
     const Eigen::Vector2d p_odom = track.position + track.velocity * (point.time - track.stamp);
     const Eigen::Vector2d p_base = point.pose.inverse() * p_odom;
     const double dx = std::max(0.0, std::abs(p_base.x()) - 0.5 * footprint_.length);

@@ -112,7 +112,7 @@ bool Planner::Pipeline::mayKeep(const PlanRequest& request) const {
   if (request.committed.empty() || request.start_time >= request.committed.endTime()) return false;
   if (request.start_time < busy_until_) return true;
   const bool alone = std::none_of(request.tracks.begin(), request.tracks.end(),
-                                  [](const TrackedObject& track) { return track.moving || track.observations < kNewTrack; });
+                                  [](const TrackedObject& track) { return track.has_moved || track.observations < kNewTrack; });
   if (!alone) return false;  // first sight must not wait
   return request.now - planned_at_ < options_.replan_period - 1e-6;
 }

@@ -18,7 +18,7 @@ constexpr int kSlowPrice = 2;           // [-] times as dear where an intruder w
 constexpr double kVisibleMargin = 0.1;  // [m] a ray must pass a place by this much
 constexpr double kWallBehind = 0.3;     // [m] behind the robot's middle nothing comes past it
 constexpr double kWallHalfWidth = 1.2;  // [m]
-constexpr double kApproaching = 0.3;    // [m/s]
+constexpr double kLeaving = 0.3;        // [m/s]
 constexpr int kNewTrack = 4;            // scans before a thing's velocity is believed
 constexpr double kTrackRim = 0.5;       // [m] its own returns close the cells round a thing off up to here
 
@@ -175,8 +175,9 @@ void SightLaw::observe(const Surroundings& surroundings, const ObstacleScan& sca
   for (const TrackedObject& track : tracks) {
     const Eigen::Vector2d there = track.position + track.velocity * (now - track.stamp);
     const Eigen::Vector2d towards = (pose.position() - there).normalized();
-    const bool approaches = track.moving && track.velocity.dot(towards) > kApproaching;
-    if (approaches || track.observations < kNewTrack) addIntruder(there, track.radius + kTrackRim, prices, sources);
+    // What stands now may drive off the next moment: only what clearly leaves is no danger.
+    const bool may_come = track.has_moved && track.velocity.dot(towards) > -kLeaving;
+    if (may_come || track.observations < kNewTrack) addIntruder(there, track.radius + kTrackRim, prices, sources);
   }
   gaps_ = spread(sources, prices, kFar);
   updated_at_ = now;

@@ -141,7 +141,7 @@ double TrajectoryValidator::trackDistance(const TrajectoryPoint& point) const {
   double least = 1e3;
   const Polygon rectangle = footprint_.polygonAt(point.pose);
   for (const TrackedObject& track : *tracks_) {
-    if (!track.moving) continue;
+    if (!track.has_moved) continue;
     const Eigen::Vector2d there = track.position + (point.time - track.stamp) * track.velocity;
     double distance = contains(rectangle, there) ? 0.0 : 1e3;
     for (std::size_t i = 0; i < rectangle.size(); ++i) {

@@ -145,7 +145,7 @@ TEST_F(GeneratorTest, StopsForWhatWillCross) {
   track.position = {5.0, 7.0};
   track.velocity = {0.0, -1.5};
   track.radius = 0.3;
-  track.moving = true;
+  track.moving = track.has_moved = true;
   const LocalMap map = seenMap(World(10, 10, false));
   const TrajectoryPoint start{0.0, {3.0, 5.0, 0.0}, {1.5, 0.0}};
   EXPECT_EQ(generate(map, {{3.0, 5.0}, {8.0, 5.0}}, start, {track}).end, DriveEnd::kTrack);

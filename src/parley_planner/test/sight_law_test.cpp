@@ -82,7 +82,7 @@ TEST_F(SightLawTest, ApproachingTracksCount) {
   track.position = {5.0, 5.0};
   track.velocity = {-1.5, 0.0};
   track.radius = 0.3;
-  track.moving = true;
+  track.moving = track.has_moved = true;
   track.observations = 9;
   look(world, {3.0, 5.0, 0.0}, 0.0, {track});
   const double approached = speedAt({3.0, 5.0, 0.0});

@@ -62,7 +62,7 @@ TEST(Surroundings, ScanReturnsBlockUnlessTheyMove) {
   track.position = {6.2, 5.0};
   track.radius = 0.3;
   EXPECT_LT(Surroundings(map, scan, pose, {track}).obstacles().at({6.0, 5.0}), 0.06);
-  track.moving = true;
+  track.moving = track.has_moved = true;
   EXPECT_GT(Surroundings(map, scan, pose, {track}).obstacles().at({6.0, 5.0}), 1.0);
 }
 

@@ -93,7 +93,7 @@ TEST_F(ValidatorTest, BelievesTheNewestScan) {
   track.position = {4.0, 4.95};
   track.velocity = {0.0, 2.0};
   track.radius = 0.15;
-  track.moving = true;
+  track.moving = track.has_moved = true;
   tracks_ = {track};
   validator_.observe({map_, scan_, pose, tracks_});
   EXPECT_TRUE(validator_.check(SampledTrajectory(straight(2.0)), begin, kMargins).good());

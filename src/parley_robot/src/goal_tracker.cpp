@@ -21,8 +21,7 @@ bool GoalTracker::set(const Eigen::Vector2d& goal_odom) {
 bool GoalTracker::update(const Odometry& odometry) {
   if (!goal_) return arrived_ = false;
   const double distance = (*goal_ - odometry.pose.position()).norm();
-  const bool standing =
-      std::abs(odometry.twist.speed) < kStandingSpeed && std::abs(odometry.twist.turn_rate) < kStandingTurnRate;
+  const bool standing = std::abs(odometry.twist.speed) < kStandingSpeed && std::abs(odometry.twist.turn_rate) < kStandingTurnRate;
   if (arrived_) {
     arrived_ = distance <= tolerance_ + hysteresis_;
   } else {

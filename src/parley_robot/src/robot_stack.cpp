@@ -132,8 +132,16 @@ void RobotStack::planMotion(double now, StageTimes& times) {
   times.local_plan = timed([&] {
     const LocalMap map =
         topology_.localMap(odometry_.latest().pose.position(), options_.wiring.local_map_size, lidar_result_.scan.stamp);
-    const PlanRequest request{now,           start_time, odometry_.latest(), map,          lidar_result_.scan,
-                              *T_odom_scan_, lidar_result_.tracks, route_,   *goal_.goal(), goal_.tolerance(),
+    const PlanRequest request{now,
+                              start_time,
+                              odometry_.latest(),
+                              map,
+                              lidar_result_.scan,
+                              *T_odom_scan_,
+                              lidar_result_.tracks,
+                              route_,
+                              *goal_.goal(),
+                              goal_.tolerance(),
                               plan_.trajectory()};
     last_plan_ = planner_.plan(request);
   });

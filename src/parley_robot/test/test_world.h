@@ -58,8 +58,8 @@ struct IdealDrive {
       return value + std::clamp(target - value, -rate * dt, rate * dt);
     };
     twist.speed = towards(twist.speed, std::clamp(command.speed, -limits.speed, limits.speed), limits.acceleration);
-    twist.turn_rate = towards(twist.turn_rate, std::clamp(command.turn_rate, -limits.turn_rate, limits.turn_rate),
-                              limits.turn_acceleration);
+    twist.turn_rate =
+        towards(twist.turn_rate, std::clamp(command.turn_rate, -limits.turn_rate, limits.turn_rate), limits.turn_acceleration);
     pose = integrateTwist(pose, twist.speed, twist.turn_rate, dt);
   }
 };

@@ -143,7 +143,8 @@ void store(TiledMap& map, const FieldImage& image) {
         if (flags == tile->flags[i] && distance == tile->distance[i]) continue;
         const std::uint16_t block = blockBit(x, y);
         tile->changed_field = static_cast<std::uint16_t>(tile->changed_field | block);
-        if ((flags ^ tile->flags[i]) & kPassable) tile->changed_passable = static_cast<std::uint16_t>(tile->changed_passable | block);
+        if ((flags ^ tile->flags[i]) & kPassable)
+          tile->changed_passable = static_cast<std::uint16_t>(tile->changed_passable | block);
         tile->flags[i] = flags;
         tile->distance[i] = distance;
       }

@@ -11,6 +11,7 @@ namespace {
 constexpr int kHalo = 2;            // [cells] around the tile, for the direction of contours that leave it
 constexpr double kArcPiece = 0.35;  // [m] corners closer than this may be pieces of one corner's round
 constexpr double kArcTurn = 1.75;   // [rad] and are so if together they turn no more than this
+constexpr double kTipReach = 0.6;   // [-] of the grown radius, how far the tip of a corner may stand off from its round
 
 double turnAt(const Eigen::Vector2d& before, const Eigen::Vector2d& at, const Eigen::Vector2d& after) {
   const Eigen::Vector2d in = at - before, out = after - at;
@@ -26,7 +27,10 @@ Eigen::Vector2d crossing(const Eigen::Vector2d& a, const Eigen::Vector2d& b, con
 class TileTracer {
  public:
   TileTracer(const TiledMap& map, int tx, int ty, const FieldShape& shape, double simplify)
-      : map_(map), shape_(shape), simplify_(simplify), rect_{tx * kTileSize, ty * kTileSize, (tx + 1) * kTileSize, (ty + 1) * kTileSize} {}
+      : map_(map),
+        shape_(shape),
+        simplify_(simplify),
+        rect_{tx * kTileSize, ty * kTileSize, (tx + 1) * kTileSize, (ty + 1) * kTileSize} {}
 
   std::vector<Chain> trace() {
     const CellRect window = rect_.grown(kHalo);
@@ -130,8 +134,7 @@ class TileTracer {
       const Eigen::Vector2d& after = points[last + 1 < n ? last + 1 : 0];
       if (last > i) {
         const Eigen::Vector2d tip = crossing(points[i - 1], points[i], points[last], after);
-        const bool room = map_.flags(map_.cellOf(tip.x()), map_.cellOf(tip.y())) & kPassable;
-        if (room && (tip - points[i]).norm() < kArcPiece && (tip - points[last]).norm() < kArcPiece && (closed || last + 1 < n)) {
+        if (isRoomFor(tip, points, i, last) && (closed || last + 1 < n)) {
           result.push_back(tip);
           i = last + 1;
           continue;
@@ -140,6 +143,13 @@ class TileTracer {
       result.push_back(points[i++]);
     }
     return result;
+  }
+
+  /// The tip of a corner in place of points[i] to points[last]: near these, and clear of all obstacles.
+  bool isRoomFor(const Eigen::Vector2d& tip, const std::vector<Eigen::Vector2d>& points, std::size_t i, std::size_t last) const {
+    double away = shape_.grown_radius;
+    for (std::size_t k = i; k < last; ++k) away = std::min(away, pointSegmentDistance(tip, points[k], points[k + 1]));
+    return away < kTipReach * shape_.grown_radius && (map_.flags(map_.cellOf(tip.x()), map_.cellOf(tip.y())) & kWide);
   }
 
   /// The last of the corners from `i` on that are pieces of one convex corner; none is at or after `stop`.

@@ -8,9 +8,10 @@
 namespace parley {
 namespace {
 
-constexpr double kLeastTurn = 0.1;         // [rad] straighter corners are none
-constexpr double kDirectionStep = 0.05;    // [rad] outline directions are rounded, so that a wall that grows keeps its far corner
-constexpr double kPillarPerimeter = 3.0;   // [m]
+constexpr double kLeastTurn = 0.1;        // [rad] straighter corners are none
+constexpr double kDirectionStep = 0.05;   // [rad] outline directions are rounded, so that a wall that grows keeps its far corner
+constexpr double kSeamTolerance = 0.4;    // [-] of the simplification's, for points that are there only because a tile ends
+constexpr double kPillarPerimeter = 3.0;  // [m]
 
 /// The last but one point of the chain that leads into an open chain's first point.
 std::optional<Eigen::Vector2d> pointBefore(const TiledMap& map, const Chain& chain) {
@@ -41,6 +42,14 @@ std::optional<Vertex> cornerAt(const Eigen::Vector2d& before, const Eigen::Vecto
   return vertex;
 }
 
+bool isAtUnknown(const TiledMap& map, const Vertex& vertex) {
+  for (const double ahead : {0.15, 0.3, 0.45}) {
+    const Eigen::Vector2d p = vertex.position + ahead * vertex.direction;
+    if (!(map.flags(map.cellOf(p.x()), map.cellOf(p.y())) & kSeen)) return true;
+  }
+  return false;
+}
+
 Provenance provenanceOf(const TiledMap& map, const Vertex& vertex, const FieldShape& shape, const LayerStore& layers) {
   const int spread = 2;
   const Eigen::Vector2d core = vertex.position - shape.grown_radius * vertex.direction;
@@ -65,7 +74,7 @@ void appendCorners(const TiledMap& map, const Chain& chain, double simplify, std
     const Eigen::Vector2d& after = chain.points[(i + 1) % n];
     const bool seam = !chain.closed && i == 0;
     if (seam) before = pointBefore(map, chain);
-    if (!before || (seam && pointSegmentDistance(chain.points[i], *before, after) < simplify)) continue;
+    if (!before || (seam && pointSegmentDistance(chain.points[i], *before, after) < kSeamTolerance * simplify)) continue;
     std::optional<Vertex> corner = cornerAt(*before, chain.points[i], after, chain.turn);
     if (!corner) continue;
     if (pillar) corner->kind = VertexClass::kPillar;
@@ -75,11 +84,13 @@ void appendCorners(const TiledMap& map, const Chain& chain, double simplify, std
 
 }  // namespace
 
-std::vector<Vertex> cornersOf(const TiledMap& map, const Tile& tile, const FieldShape& shape, double simplify, const LayerStore& layers) {
+std::vector<Vertex> cornersOf(const TiledMap& map, const Tile& tile, const FieldShape& shape, double simplify,
+                              const LayerStore& layers) {
   std::vector<Vertex> corners;
   for (const Chain& chain : tile.chains) appendCorners(map, chain, simplify, corners);
-  if (layers.count() > 0) {
-    for (Vertex& corner : corners) corner.provenance = provenanceOf(map, corner, shape, layers);
+  for (Vertex& corner : corners) {
+    corner.at_unknown = isAtUnknown(map, corner);
+    if (layers.count() > 0) corner.provenance = provenanceOf(map, corner, shape, layers);
   }
   return corners;
 }

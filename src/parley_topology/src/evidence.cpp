@@ -54,7 +54,8 @@ void addToTile(Tile& tile, const ScanImage& image, const CellRect& part, const V
 }  // namespace
 
 void addEvidence(TiledMap& map, const ScanImage& image, const TopologyOptions& options) {
-  const Voting voting{options.hit_weight, options.clear_weight, options.evidence_limit, options.occupied_above, options.free_below};
+  const Voting voting{options.hit_weight, options.clear_weight, options.evidence_limit, options.occupied_above,
+                      options.free_below};
   forEachTile(image.rect, [&](int tx, int ty, const CellRect& part) {
     Tile* tile = map.find(tx, ty);
     if (!tile && hasMarks(image, part)) tile = map.ensure(tx, ty);

@@ -14,7 +14,7 @@ bool sameProvenance(const Provenance& a, const Provenance& b) { return a.origin 
 
 bool sameCorner(const Vertex& a, const Vertex& b) {
   return a.position == b.position && a.previous == b.previous && a.next == b.next && a.direction == b.direction &&
-         a.kind == b.kind && sameProvenance(a.provenance, b.provenance);
+         a.kind == b.kind && a.at_unknown == b.at_unknown && sameProvenance(a.provenance, b.provenance);
 }
 
 /// Index of the corner in `candidates` (slots, -1 for taken) that `corner` goes on from; -1 if it is new.
@@ -49,7 +49,8 @@ struct TouchedTiles {
 };
 
 void sortUnique(std::vector<Tile*>& tiles) {
-  std::sort(tiles.begin(), tiles.end(), [](const Tile* a, const Tile* b) { return a->ty != b->ty ? a->ty < b->ty : a->tx < b->tx; });
+  std::sort(tiles.begin(), tiles.end(),
+            [](const Tile* a, const Tile* b) { return a->ty != b->ty ? a->ty < b->ty : a->tx < b->tx; });
   tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
 }
 
@@ -62,13 +63,13 @@ void forEachAround(TiledMap& map, const Tile& tile, const Visit& visit) {
   }
 }
 
-/// In a fixed order. Who is behind a corner can change by what own sensing has seen, if there are layers.
-TouchedTiles touchedTiles(TiledMap& map, bool layers) {
+/// In a fixed order. Who is behind a corner and whether it is at unseen space can change without any distance changing.
+TouchedTiles touchedTiles(TiledMap& map) {
   TouchedTiles touched;
   for (const auto& tile : map.tiles()) {
-    if (layers && tile->changed_seen) {
-      forEachAround(map, *tile, [&](Tile* near, int, int) { touched.corners.push_back(near); });
-    }
+    forEachAround(map, *tile, [&](Tile* near, int dx, int dy) {
+      if (tile->changed_seen & blocksTowards(dx, dy)) touched.corners.push_back(near);
+    });
     if (!tile->changed_field) continue;
     forEachAround(map, *tile, [&](Tile* near, int dx, int dy) {
       if (tile->changed_field & blocksTowards(dx, dy)) touched.contours.push_back(near);
@@ -88,7 +89,7 @@ GraphBuilder::Result GraphBuilder::update(TiledMap& map, const LayerStore& layer
   Result result;
   const ChangedBlocks changed(map, options_.clearance_cap);
   if (changed.empty()) return result;
-  const TouchedTiles touched = touchedTiles(map, layers.count() > 0);
+  const TouchedTiles touched = touchedTiles(map);
   for (Tile* tile : touched.contours) tile->chains = traceTile(map, tile->tx, tile->ty, shape_, options_.simplify);
   const std::vector<int> fresh = matchCorners(map, touched.corners, layers, result);
   const bool edges_changed = refreshPairs(map, changed);
@@ -114,8 +115,8 @@ std::vector<int> GraphBuilder::matchCorners(TiledMap& map, const std::vector<Til
     tile->vertices.clear();
     std::vector<Vertex> moved;
     for (const Vertex& corner : found) {
-      const auto same = std::find_if(old.begin(), old.end(),
-                                     [&](int slot) { return slot >= 0 && sameCorner(graph_.vertex(slot), corner); });
+      const auto same =
+          std::find_if(old.begin(), old.end(), [&](int slot) { return slot >= 0 && sameCorner(graph_.vertex(slot), corner); });
       if (same == old.end()) {
         moved.push_back(corner);
         continue;
@@ -161,7 +162,9 @@ bool GraphBuilder::refreshPairs(TiledMap& map, const ChangedBlocks& changed) {
   std::vector<int> affected = pairsNoLongerShut(map);
   bool any = !affected.empty();
   for (int slot = 0; slot < graph_.slotCount(); ++slot) {
-    if (!graph_.has(slot) || changed.isFarFrom(graph_.vertex(slot).position, options_.max_edge)) continue;
+    if (!graph_.has(slot)) continue;
+    const Vertex& vertex = graph_.vertex(slot);
+    if (!vertex.at_unknown && changed.isFarFrom(vertex.position, options_.max_edge)) continue;
     for (const VisibilityGraph::Link& link : graph_.links(slot)) {
       Edge& edge = graph_.edge(link.edge);
       if (edge.from != slot) continue;
@@ -203,7 +206,8 @@ void GraphBuilder::connect(TiledMap& map, int slot, const std::vector<char>& pen
     const Vertex& end = graph_.vertex(other);
     const Eigen::Vector2d way = end.position - vertex.position;
     const double length = way.norm();
-    if (length > options_.max_edge || length < 1e-6) continue;
+    const bool unlimited = vertex.at_unknown && end.at_unknown;
+    if ((length > options_.max_edge && !unlimited) || length < 1e-6) continue;
     const Eigen::Vector2d ray = way / length;
     if (!isTangent(vertex, ray, kTangentSlack) || !isTangent(end, ray, kTangentSlack)) continue;
     int pair = static_cast<int>(pairs_.size());

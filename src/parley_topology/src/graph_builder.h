@@ -58,7 +58,7 @@ class GraphBuilder {
   VisibilityGraph graph_;
   std::vector<Pair> pairs_;
   std::vector<int> free_pairs_;
-  std::vector<int> pair_of_edge_;            // by slot of an edge
+  std::vector<int> pair_of_edge_;           // by slot of an edge
   std::vector<std::vector<int>> pairs_of_;  // by slot of a vertex
   int next_id_ = 0;
   bool saturated_ = false;

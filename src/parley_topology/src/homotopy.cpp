@@ -15,7 +15,8 @@ std::vector<Eigen::Vector2d> differenceLoop(const std::vector<Eigen::Vector2d>& 
   while (tail + same < shorter && a[a.size() - 1 - tail] == b[b.size() - 1 - tail]) ++tail;
   const std::size_t first = same > 0 ? same - 1 : 0;
   const auto last = [tail](const std::vector<Eigen::Vector2d>& way) { return way.size() - (tail > 0 ? tail - 1 : 0); };
-  std::vector<Eigen::Vector2d> loop(a.begin() + static_cast<std::ptrdiff_t>(first), a.begin() + static_cast<std::ptrdiff_t>(last(a)));
+  std::vector<Eigen::Vector2d> loop(a.begin() + static_cast<std::ptrdiff_t>(first),
+                                    a.begin() + static_cast<std::ptrdiff_t>(last(a)));
   for (std::size_t i = last(b); i > first; --i) loop.push_back(b[i - 1]);
   return loop;
 }
@@ -34,7 +35,16 @@ int windingNumber(const std::vector<Eigen::Vector2d>& loop, const Eigen::Vector2
   return winding;
 }
 
-bool sameClass(const TiledMap& map, const std::vector<Eigen::Vector2d>& a, const std::vector<Eigen::Vector2d>& b) {
+std::vector<Eigen::Vector2d> obstaclePoints(const TiledMap& map) {
+  std::vector<Eigen::Vector2d> points;
+  for (const auto& tile : map.tiles()) {
+    for (const Chain& chain : tile->chains) points.push_back(chain.core);
+  }
+  return points;
+}
+
+bool sameClass(const std::vector<Eigen::Vector2d>& obstacles, const std::vector<Eigen::Vector2d>& a,
+               const std::vector<Eigen::Vector2d>& b) {
   const std::vector<Eigen::Vector2d> loop = differenceLoop(a, b);
   if (loop.size() < 3) return true;
   Eigen::Vector2d low = loop.front(), high = loop.front();
@@ -42,14 +52,10 @@ bool sameClass(const TiledMap& map, const std::vector<Eigen::Vector2d>& a, const
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  for (const auto& tile : map.tiles()) {
-    for (const Chain& chain : tile->chains) {
-      const Eigen::Vector2d& core = chain.core;
-      if ((core.array() < low.array()).any() || (core.array() > high.array()).any()) continue;
-      if (windingNumber(loop, core) != 0) return false;
-    }
-  }
-  return true;
+  return std::none_of(obstacles.begin(), obstacles.end(), [&](const Eigen::Vector2d& p) {
+    const bool near = (p.array() >= low.array()).all() && (p.array() <= high.array()).all();
+    return near && windingNumber(loop, p) != 0;
+  });
 }
 
 }  // namespace parley

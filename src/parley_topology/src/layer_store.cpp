@@ -23,7 +23,8 @@ void keepMapped(TiledMap& map, std::vector<std::uint64_t>& keys) {
   keys.erase(std::remove_if(keys.begin(), keys.end(), homeless), keys.end());
 }
 
-/// Adds `step` to the layer counts of cells, all of which have a tile. A count stays below 256 because the number of layers is bounded.
+/// Adds `step` to the layer counts of cells, all of which have a tile. A count stays below 256 because the number of layers is
+/// bounded.
 void addToCounts(TiledMap& map, const std::vector<std::uint64_t>& cells, bool hard, int step) {
   for (const std::uint64_t key : cells) {
     const int x = xOf(key), y = yOf(key);
@@ -38,9 +39,7 @@ void addToCounts(TiledMap& map, const std::vector<std::uint64_t>& cells, bool ha
 }
 
 bool sameOutlines(const LayerUpdate& a, const LayerUpdate& b) {
-  const auto same = [](const LayerContour& c, const LayerContour& d) {
-    return c.closed == d.closed && c.polygon == d.polygon;
-  };
+  const auto same = [](const LayerContour& c, const LayerContour& d) { return c.closed == d.closed && c.polygon == d.polygon; };
   return a.T_odom_peer == b.T_odom_peer && a.obstacle == b.obstacle &&
          std::equal(a.contours.begin(), a.contours.end(), b.contours.begin(), b.contours.end(), same);
 }

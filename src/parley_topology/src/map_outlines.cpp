@@ -10,7 +10,8 @@ constexpr double kTolerance = 0.8;  // [cells] of the simplification
 
 std::vector<Contour> tileOutlines(const TiledMap& map, const Tile& tile, CellFlag flag) {
   cv::Mat1b image(kTileSize, kTileSize);
-  for (int i = 0; i < kTileCells; ++i) image(i >> kTileBits, i & (kTileSize - 1)) = tile.flags[static_cast<std::size_t>(i)] & flag ? 255 : 0;
+  for (int i = 0; i < kTileCells; ++i)
+    image(i >> kTileBits, i & (kTileSize - 1)) = tile.flags[static_cast<std::size_t>(i)] & flag ? 255 : 0;
   std::vector<std::vector<cv::Point>> outlines;
   std::vector<cv::Vec4i> hierarchy;
   cv::findContours(image, outlines, hierarchy, cv::RETR_CCOMP, cv::CHAIN_APPROX_NONE);
@@ -23,7 +24,8 @@ std::vector<Contour> tileOutlines(const TiledMap& map, const Tile& tile, CellFla
     contour.hole = hierarchy[i][3] >= 0;
     contour.tile = {tile.tx, tile.ty};
     contour.piece = static_cast<int>(contours.size());
-    for (const cv::Point& p : simple) contour.polygon.push_back(map.centerOf(tile.tx * kTileSize + p.x, tile.ty * kTileSize + p.y));
+    for (const cv::Point& p : simple)
+      contour.polygon.push_back(map.centerOf(tile.tx * kTileSize + p.x, tile.ty * kTileSize + p.y));
     contours.push_back(std::move(contour));
   }
   return contours;
@@ -34,7 +36,8 @@ std::vector<Contour> tileOutlines(const TiledMap& map, const Tile& tile, CellFla
 std::vector<Contour> outlinesOf(const TiledMap& map, CellFlag flag) {
   std::vector<const Tile*> tiles;
   for (const auto& tile : map.tiles()) tiles.push_back(tile.get());
-  std::sort(tiles.begin(), tiles.end(), [](const Tile* a, const Tile* b) { return a->ty != b->ty ? a->ty < b->ty : a->tx < b->tx; });
+  std::sort(tiles.begin(), tiles.end(),
+            [](const Tile* a, const Tile* b) { return a->ty != b->ty ? a->ty < b->ty : a->tx < b->tx; });
   std::vector<Contour> contours;
   for (const Tile* tile : tiles) {
     for (Contour& contour : tileOutlines(map, *tile, flag)) contours.push_back(std::move(contour));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "route_keeper.h"
 
+#include "grid_search.h"
 #include "homotopy.h"
 #include "parley_geometry/polygon.h"
 
@@ -34,16 +35,19 @@ FoundRoute RouteKeeper::search(VisibilityGraph& graph, const Sight& sight, const
 
 FoundRoute RouteKeeper::choose(const TiledMap& map, VisibilityGraph& graph, const Sight& sight, const RouteQuery& query) {
   FoundRoute best = search(graph, sight, query);
+  if (!best.exists()) {  // the graph has no edges longer than its limit: nothing is called shut on its word alone
+    best = measuredRoute(sight, searchGrid(map, sight, query.start, query.goal, options_.max_flood));
+  }
   if (committed_.empty() || !best.exists()) return best;
   std::vector<Eigen::Vector2d> held = committed_;  // from here back onto it; the spur encloses nothing
   held.insert(held.begin(), query.start);
   held.back() = query.goal;
-  if (sameClass(map, held, best.points)) return best;
+  if (sameClass(obstacles_, held, best.points)) return best;
 
   RouteQuery mending = query;
   mending.allowed = tubeAround(held, options_.class_tube, graph);
   FoundRoute mended = search(graph, sight, mending);
-  const bool open = mended.exists() && sameClass(map, held, mended.points);
+  const bool open = mended.exists() && sameClass(obstacles_, held, mended.points);
   const double penalty = options_.switch_penalty + options_.switch_ratio * mended.cost;
   if (open && best.cost + penalty >= mended.cost) return mended;
   ++switches_;
@@ -64,6 +68,7 @@ Route RouteKeeper::route(const TiledMap& map, VisibilityGraph& graph, const Sigh
   FoundRoute found;
   if (from && to) found = choose(map, graph, sight, {*from, *to, {}});
   committed_ = found.points;
+  obstacles_ = obstaclePoints(map);
   route.switches = switches_;
   if (!found.exists()) return route;
   route.points = found.points;

@@ -11,7 +11,8 @@ namespace parley {
 
 /// Answers where to go, and stands by the answer: keeps the side on which obstacles are passed unless the way is shut or
 /// another is cheaper by more than a penalty. Along a best route costs fall by what is driven, so on a map that does not
-/// change no second switch can pay: going back takes news worth twice the penalty.
+/// change no second switch can pay: going back takes news worth twice the penalty. Only obstacles that were known when the
+/// last answer was given count: on which side to pass what has just come into sight was not decided before.
 class RouteKeeper {
  public:
   explicit RouteKeeper(const TopologyOptions& options) : options_(options) {}
@@ -26,6 +27,7 @@ class RouteKeeper {
 
   TopologyOptions options_;
   std::vector<Eigen::Vector2d> committed_;  // [m] the way last answered; empty if none
+  std::vector<Eigen::Vector2d> obstacles_;  // [m] points of those that were known then
   Eigen::Vector2d goal_ = Eigen::Vector2d::Zero();
   bool has_goal_ = false;
   int switches_ = 0;

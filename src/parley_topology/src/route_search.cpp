@@ -40,22 +40,11 @@ class SearchSpace {
 
   /// The route along `parents` to the goal.
   FoundRoute trace(const std::vector<int>& parents) const {
-    FoundRoute route;
-    route.narrowest = kInfinity;
-    int node = goal();
-    for (; node != kFromStart; node = parents[static_cast<std::size_t>(node)]) {
-      const int parent = parents[static_cast<std::size_t>(node)];
-      const Eigen::Vector2d& from = parent == kFromStart ? query_.start : position(parent);
-      const Edge edge = sight_.measure(from, position(node));
-      route.points.push_back(position(node));
-      route.length += edge.length;
-      route.cost += edge.cost;
-      route.unknown_length += edge.unknown_length;
-      route.narrowest = std::min(route.narrowest, edge.clearance);
-    }
-    route.points.push_back(query_.start);
-    std::reverse(route.points.begin(), route.points.end());
-    return route;
+    std::vector<Eigen::Vector2d> points;
+    for (int node = goal(); node != kFromStart; node = parents[static_cast<std::size_t>(node)]) points.push_back(position(node));
+    points.push_back(query_.start);
+    std::reverse(points.begin(), points.end());
+    return measuredRoute(sight_, points);
   }
 
   const std::vector<VisibilityGraph::Link>& links(int slot) const { return graph_.links(slot); }
@@ -210,6 +199,20 @@ class DepthFirst {
 };
 
 }  // namespace
+
+FoundRoute measuredRoute(const Sight& sight, const std::vector<Eigen::Vector2d>& points) {
+  FoundRoute route;
+  route.points = points;
+  route.narrowest = kInfinity;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const Edge edge = sight.measure(points[i], points[i + 1]);
+    route.length += edge.length;
+    route.cost += edge.cost;
+    route.unknown_length += edge.unknown_length;
+    route.narrowest = std::min(route.narrowest, edge.clearance);
+  }
+  return route;
+}
 
 FoundRoute searchAstar(VisibilityGraph& graph, const Sight& sight, const RouteQuery& query) {
   return Astar(SearchSpace(graph, sight, query)).search();

@@ -26,6 +26,9 @@ struct FoundRoute {
   bool exists() const { return !points.empty(); }
 };
 
+/// A route along given points, measured.
+FoundRoute measuredRoute(const Sight& sight, const std::vector<Eigen::Vector2d>& points);
+
 /// A* with decrease-key. Edges to the start and to the goal are looked at only when the search gets to them.
 FoundRoute searchAstar(VisibilityGraph& graph, const Sight& sight, const RouteQuery& query);
 

@@ -95,7 +95,8 @@ bool isUsable(const ObstacleScan& scan, const Pose2& T_odom_base) {
 ScanImage drawScan(const ObstacleScan& scan, const Pose2& T_odom_base, const Footprint& footprint, double clear_margin,
                    double resolution) {
   const std::vector<Ray> rays = castRays(scan, T_odom_base, clear_margin);
-  const Polygon body = footprint.polygonAt(T_odom_base);
+  const double slack = std::min(resolution, 0.25 * std::min(footprint.length, footprint.width));
+  const Polygon body = footprint.polygonAt(T_odom_base, -slack);  // a wall that it stands against must stay
   ScanImage image;
   image.rect = boundsOf(rays, body, resolution);
   image.marks = cv::Mat1b(image.rect.height(), image.rect.width(), static_cast<std::uint8_t>(kNothing));

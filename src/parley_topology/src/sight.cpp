@@ -105,7 +105,8 @@ void Sight::measureWidth(Edge& edge, const Eigen::Vector2d& a, const Eigen::Vect
     left_room = {left_room[1], left_room[2], narrow ? roomTowards(p, left, cap) : cap};
     right_room = {right_room[1], right_room[2], narrow ? roomTowards(p, -left, cap) : cap};
     if (i == 0) continue;
-    const double width = *std::min_element(left_room.begin(), left_room.end()) + *std::min_element(right_room.begin(), right_room.end());
+    const double width =
+        *std::min_element(left_room.begin(), left_room.end()) + *std::min_element(right_room.begin(), right_room.end());
     edge.clearance = std::min(edge.clearance, width);
     if (width < options_.narrow_width) edge.narrow_length += (1.0 - width / options_.narrow_width) * edge.length / (steps + 1);
   }

@@ -4,8 +4,8 @@
 namespace parley {
 
 bool operator==(const Chain& a, const Chain& b) {
-  return a.closed == b.closed && a.turn == b.turn && a.before == b.before && a.first == b.first && a.last == b.last && a.end == b.end &&
-         a.points == b.points;
+  return a.closed == b.closed && a.turn == b.turn && a.before == b.before && a.first == b.first && a.last == b.last &&
+         a.end == b.end && a.points == b.points;
 }
 
 TiledMap::TiledMap(double resolution, double extent, int max_tiles)

@@ -16,7 +16,7 @@ namespace parley {
 constexpr int kTileBits = 6;
 constexpr int kTileSize = 1 << kTileBits;  // [cells]
 constexpr int kTileCells = kTileSize * kTileSize;
-constexpr int kBlockBits = 4;  // changes are noted by blocks of 16 by 16 cells, so that a tile's fit into 16 bits
+constexpr int kBlockBits = 4;                // changes are noted by blocks of 16 by 16 cells, so that a tile's fit into 16 bits
 constexpr int kBlockSize = 1 << kBlockBits;  // [cells]
 
 /// Bits of what is known of a cell.
@@ -83,18 +83,16 @@ struct Tile {
   std::array<std::uint8_t, kTileCells> flags{};
   std::array<std::uint8_t, kTileCells> distance{};  // to what is fused occupied, kFarAway is the field's reach
   std::unique_ptr<LayerCounts> layers;
-  std::uint16_t changed_cells = 0;  // what is occupied, or seen with layers about: the field has to be worked out again
-  std::uint16_t changed_seen = 0;   // what is seen or tentative: measures of edges across it
-  std::uint16_t changed_field = 0;  // distances and what follows from them: contours, and measures of edges near by
+  std::uint16_t changed_cells = 0;     // what is occupied, or seen with layers about: the field has to be worked out again
+  std::uint16_t changed_seen = 0;      // what is seen or tentative: measures of edges across it
+  std::uint16_t changed_field = 0;     // distances and what follows from them: contours, and measures of edges near by
   std::uint16_t changed_passable = 0;  // of these, where edges open or shut
   std::vector<Chain> chains;
   std::vector<int> vertices;  // slots
   std::vector<Watch> watches;
   std::size_t watches_after_sweep = 0;
 
-  CellRect rect() const {
-    return {tx * kTileSize, ty * kTileSize, (tx + 1) * kTileSize, (ty + 1) * kTileSize};
-  }
+  CellRect rect() const { return {tx * kTileSize, ty * kTileSize, (tx + 1) * kTileSize, (ty + 1) * kTileSize}; }
 };
 
 inline int tileOf(int cell) { return cell >> kTileBits; }
@@ -137,9 +135,7 @@ class TiledMap {
   const std::vector<std::unique_ptr<Tile>>& tiles() const { return tiles_; }
   bool saturated() const { return saturated_; }
   /// Whether coordinates are so far out that they are not mapped. Also true for NaN.
-  bool isOutside(const Eigen::Vector2d& p) const {
-    return !(std::abs(p.x()) < extent_ && std::abs(p.y()) < extent_);
-  }
+  bool isOutside(const Eigen::Vector2d& p) const { return !(std::abs(p.x()) < extent_ && std::abs(p.y()) < extent_); }
   void clear();
 
  private:

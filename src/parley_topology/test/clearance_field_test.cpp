@@ -33,7 +33,8 @@ TEST(ClearanceField, distancesAreThoseToTheNearestObstacle) {
   for (int y = -110; y <= 110; y += 3) {
     for (int x = -110; x <= 110; x += 3) {
       double least = 1e9;
-      for (const Eigen::Vector2i& o : obstacles) least = std::min(least, 0.05 * (o - Eigen::Vector2i(x, y)).cast<double>().norm());
+      for (const Eigen::Vector2i& o : obstacles)
+        least = std::min(least, 0.05 * (o - Eigen::Vector2i(x, y)).cast<double>().norm());
       const double expected = std::min(least, shape.reach);
       EXPECT_NEAR(metersOf(map.distance(x, y), shape.reach), expected, 0.03 * expected + 0.004) << x << " " << y;
       if (std::abs(least - shape.grown_radius) > 0.02) {

@@ -113,7 +113,8 @@ TEST(Corners, smallObstaclesArePillars) {
 
 TEST(Corners, chainsOfNeighbouringTilesJoin) {
   Drawing drawing;
-  drawing.draw(0.0, 0.0, 12.0, 12.0, [](const Eigen::Vector2d& p) { return std::abs((p - Eigen::Vector2d(6, 6)).norm() - 4.0) < 0.1; });
+  drawing.draw(0.0, 0.0, 12.0, 12.0,
+               [](const Eigen::Vector2d& p) { return std::abs((p - Eigen::Vector2d(6, 6)).norm() - 4.0) < 0.1; });
   drawing.corners();
   for (const auto& tile : drawing.map.tiles()) {
     for (const Chain& chain : tile->chains) {
@@ -121,8 +122,8 @@ TEST(Corners, chainsOfNeighbouringTilesJoin) {
       const Tile* next = drawing.map.find(tileOf(chain.end.x()), tileOf(chain.end.y()));
       ASSERT_NE(next, nullptr);
       const auto follows = [&](const Chain& other) {
-        return !other.closed && other.first == chain.end && other.before == chain.last && other.points.front() == chain.points.back() &&
-               other.turn == chain.turn;
+        return !other.closed && other.first == chain.end && other.before == chain.last &&
+               other.points.front() == chain.points.back() && other.turn == chain.turn;
       };
       EXPECT_EQ(std::count_if(next->chains.begin(), next->chains.end(), follows), 1);
     }

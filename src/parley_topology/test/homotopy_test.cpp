@@ -8,17 +8,6 @@ namespace {
 
 using Way = std::vector<Eigen::Vector2d>;
 
-/// A map whose only content is obstacles at points.
-TiledMap mapOf(const std::vector<Eigen::Vector2d>& obstacles) {
-  TiledMap map(0.05, 100.0, 100);
-  for (const Eigen::Vector2d& p : obstacles) {
-    Chain chain;
-    chain.core = p;
-    map.ensure(tileOf(map.cellOf(p.x())), tileOf(map.cellOf(p.y())))->chains.push_back(chain);
-  }
-  return map;
-}
-
 }  // namespace
 
 TEST(WindingNumber, countsTurns) {
@@ -34,37 +23,45 @@ TEST(WindingNumber, countsTurns) {
 }
 
 TEST(SameClass, comparesSidesOfObstacles) {
-  const TiledMap map = mapOf({{5, 0}, {5, 6}});
+  const Way obstacles{{5, 0}, {5, 6}};
   const Way below{{0, 0}, {5, -1}, {10, 0}};
   const Way above{{0, 0}, {5, 1}, {10, 0}};
   const Way further_above{{0, 0}, {3, 1}, {5, 5}, {8, 2}, {10, 0}};
   const Way over_both{{0, 0}, {5, 7}, {10, 0}};
-  EXPECT_TRUE(sameClass(map, below, below));
-  EXPECT_FALSE(sameClass(map, below, above));
-  EXPECT_TRUE(sameClass(map, above, further_above));
-  EXPECT_FALSE(sameClass(map, above, over_both));
-  EXPECT_FALSE(sameClass(map, over_both, below));
+  EXPECT_TRUE(sameClass(obstacles, below, below));
+  EXPECT_FALSE(sameClass(obstacles, below, above));
+  EXPECT_TRUE(sameClass(obstacles, above, further_above));
+  EXPECT_FALSE(sameClass(obstacles, above, over_both));
+  EXPECT_FALSE(sameClass(obstacles, over_both, below));
 }
 
 TEST(SameClass, partsInCommonDoNotCount) {
-  const TiledMap map = mapOf({{5, 0}, {12, 0.5}});
+  const Way obstacles{{5, 0}, {12, 0.5}};
   const Way a{{0, 0}, {5, 1}, {10, 0}, {11, 2}, {14, 0}};
   const Way b{{0, 0}, {5, 1}, {10, 0}, {11, -1}, {14, 0}};
-  EXPECT_FALSE(sameClass(map, a, b));
-  EXPECT_TRUE(sameClass(mapOf({{5, 0}}), a, b));
+  EXPECT_FALSE(sameClass(obstacles, a, b));
+  EXPECT_TRUE(sameClass({{5, 0}}, a, b));
 }
 
 TEST(SameClass, aSpurBackOntoTheWayDoesNotCount) {
-  const TiledMap map = mapOf({{5, 0}});
+  const Way obstacles{{5, 0}};
   const Way driven{{3, 0.6}, {0, 0}, {5, 1}, {10, 0}};
   const Way fresh{{3, 0.6}, {5, 1}, {10, 0}};
-  EXPECT_TRUE(sameClass(map, driven, fresh));
-  EXPECT_FALSE(sameClass(map, driven, {{3, 0.6}, {5, -1}, {10, 0}}));
+  EXPECT_TRUE(sameClass(obstacles, driven, fresh));
+  EXPECT_FALSE(sameClass(obstacles, driven, {{3, 0.6}, {5, -1}, {10, 0}}));
 }
 
-TEST(SameClass, onePointWaysAreTheSame) {
-  EXPECT_TRUE(sameClass(mapOf({{5, 0}}), {{0, 0}, {1, 0}}, {{0, 0}, {1, 0}}));
+TEST(ObstaclePoints, areThoseOfTheChains) {
+  TiledMap map(0.05, 100.0, 100);
+  Chain chain;
+  chain.core = {1.0, 2.0};
+  map.ensure(0, 0)->chains.push_back(chain);
+  chain.core = {-1.0, 2.0};
+  map.ensure(-1, 0)->chains.push_back(chain);
+  EXPECT_EQ(obstaclePoints(map), (Way{{1.0, 2.0}, {-1.0, 2.0}}));
 }
+
+TEST(SameClass, onePointWaysAreTheSame) { EXPECT_TRUE(sameClass({{5, 0}}, {{0, 0}, {1, 0}}, {{0, 0}, {1, 0}})); }
 
 }  // namespace parley
 

@@ -69,10 +69,12 @@ struct RandomCase {
     std::vector<Arc> arcs;
     const auto usable = [&](int i) { return i >= n || query.allowed.empty() || query.allowed[static_cast<std::size_t>(i)]; };
     const auto position = [&](int i) { return i == start ? query.start : i == goal ? query.goal : graph.vertex(i).position; };
-    for (const Edge& edge : graph.edges()) arcs.push_back({edge.from, edge.to, sight.measure(position(edge.from), position(edge.to)).cost});
+    for (const Edge& edge : graph.edges())
+      arcs.push_back({edge.from, edge.to, sight.measure(position(edge.from), position(edge.to)).cost});
     for (int i = 0; i <= n; ++i) {
       for (int end : {start, goal}) {
-        if (i != end && sight.walk(position(i), position(end)).open) arcs.push_back({i, end, sight.measure(position(i), position(end)).cost});
+        if (i != end && sight.walk(position(i), position(end)).open)
+          arcs.push_back({i, end, sight.measure(position(i), position(end)).cost});
       }
     }
     std::vector<double> cost(static_cast<std::size_t>(n + 2), std::numeric_limits<double>::infinity());
@@ -116,7 +118,8 @@ TEST(RouteSearch, bothSearchesFindTheCheapestWay) {
     EXPECT_NEAR(depth_first.cost, expected, 1e-9) << "seed " << seed;
     EXPECT_EQ(astar.points.front(), c.query.start);
     EXPECT_EQ(astar.points.back(), c.query.goal);
-    for (std::size_t i = 0; i + 1 < astar.points.size(); ++i) EXPECT_TRUE(c.sight.walk(astar.points[i], astar.points[i + 1]).open);
+    for (std::size_t i = 0; i + 1 < astar.points.size(); ++i)
+      EXPECT_TRUE(c.sight.walk(astar.points[i], astar.points[i + 1]).open);
   }
   EXPECT_GT(found, 300);
   EXPECT_GT(detours, 50);

@@ -63,7 +63,8 @@ TestWorld TestWorld::boxes(double size, int count, unsigned seed) {
 void TestWorld::setBox(double x0, double y0, double x1, double y1, bool solid) {
   const auto cell = [this](double v) { return static_cast<int>(std::lround(v / resolution_)); };
   for (int y = std::max(0, cell(y0)); y < std::min(rows_, cell(y1)); ++y) {
-    for (int x = std::max(0, cell(x0)); x < std::min(columns_, cell(x1)); ++x) solid_[static_cast<std::size_t>(y * columns_ + x)] = solid;
+    for (int x = std::max(0, cell(x0)); x < std::min(columns_, cell(x1)); ++x)
+      solid_[static_cast<std::size_t>(y * columns_ + x)] = solid;
   }
 }
 
@@ -126,7 +127,8 @@ double TestWorld::shortestWay(const Eigen::Vector2d& from, const Eigen::Vector2d
   std::vector<char> open(solid_.size());
   for (int y = 0; y < rows_; ++y) {
     for (int x = 0; x < columns_; ++x) {
-      open[static_cast<std::size_t>(y * columns_ + x)] = isClear(Eigen::Vector2d((x + 0.5) * resolution_, (y + 0.5) * resolution_), radius);
+      open[static_cast<std::size_t>(y * columns_ + x)] =
+          isClear(Eigen::Vector2d((x + 0.5) * resolution_, (y + 0.5) * resolution_), radius);
     }
   }
   struct Move {
@@ -137,8 +139,8 @@ double TestWorld::shortestWay(const Eigen::Vector2d& from, const Eigen::Vector2d
   for (int dx = -3; dx <= 3; ++dx) {
     for (int dy = -3; dy <= 3; ++dy) {
       const int a = std::abs(dx), b = std::abs(dy);
-      const bool prime = (a == 1 && b == 0) || (a == 0 && b == 1) || (a == 1 && b == 1) || (a == 1 && b > 1) || (b == 1 && a > 1) ||
-                         (a == 2 && b == 3) || (a == 3 && b == 2);
+      const bool prime = (a == 1 && b == 0) || (a == 0 && b == 1) || (a == 1 && b == 1) || (a == 1 && b > 1) ||
+                         (b == 1 && a > 1) || (a == 2 && b == 3) || (a == 3 && b == 2);
       if (prime) moves.push_back({dx, dy, std::hypot(dx, dy) * resolution_});
     }
   }
@@ -210,7 +212,8 @@ Eigen::Vector2d stepAlong(const std::vector<Eigen::Vector2d>& way, double step) 
 
 }  // namespace
 
-Drive drive(Topology& topology, const TestWorld& world, Eigen::Vector2d position, const Eigen::Vector2d& goal, const DriveOptions& options) {
+Drive drive(Topology& topology, const TestWorld& world, Eigen::Vector2d position, const Eigen::Vector2d& goal,
+            const DriveOptions& options) {
   std::mt19937 random(options.seed);
   Drive result;
   double yaw = 0.0;
@@ -232,7 +235,8 @@ Drive drive(Topology& topology, const TestWorld& world, Eigen::Vector2d position
     result.length += (next - position).norm();
     result.hit = result.hit || world.isSolid(next);
     if (options.step > 0.0 && i % 2) {  // keep the rest of the way in step between two routes
-      while (result.last.points.size() > 2 && (result.last.points[1] - next).norm() < 1e-9) result.last.points.erase(result.last.points.begin());
+      while (result.last.points.size() > 2 && (result.last.points[1] - next).norm() < 1e-9)
+        result.last.points.erase(result.last.points.begin());
     }
     position = next;
     if ((position - goal).norm() < 0.3) {

@@ -42,8 +42,7 @@ inline bool operator==(const Pose2& a, const Pose2& b) { return a.x == b.x && a.
 
 /// The pose a fraction of the way from a to b, yaw by the shorter way. fraction in [0, 1].
 inline Pose2 interpolate(const Pose2& a, const Pose2& b, double fraction) {
-  return {a.x + fraction * (b.x - a.x), a.y + fraction * (b.y - a.y),
-          wrapAngle(a.yaw + fraction * angleBetween(a.yaw, b.yaw))};
+  return {a.x + fraction * (b.x - a.x), a.y + fraction * (b.y - a.y), wrapAngle(a.yaw + fraction * angleBetween(a.yaw, b.yaw))};
 }
 
 /// Constant-twist motion for dt seconds: exact arc of a body moving forward at `speed` [m/s], turning at `turn_rate` [rad/s].

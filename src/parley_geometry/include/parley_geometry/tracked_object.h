@@ -13,7 +13,8 @@ struct TrackedObject {
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // [m/s] odom frame
   double radius = 0.0;                                 // [m] of a disc that covers what was seen of it
   int observations = 0;                                // [-] scans that saw it
-  bool moving = false;                                 // it has been seen to move
+  bool moving = false;                                 // it moves, or did a moment ago
+  bool has_moved = false;                              // it has been seen to move at some time: it may drive off again
 };
 
 }  // namespace parley

@@ -18,13 +18,13 @@ enum class Variant { kFull, kNoSharing, kNoConflictResolution, kReactive };
 
 /// Rates and delays of the glue between the stages.
 struct WiringOptions {
-  double topology_rate = 5.0;      // [Hz]
-  double plan_rate = 10.0;         // [Hz]
-  double plan_delay = 0.05;        // [s]
-  double local_map_size = 10.0;    // [m]
-  double jump_distance = 1.0;      // [m]
-  double jump_angle = 1.0;         // [rad]
-  double arrival_hysteresis = 0.2; // [m]
+  double topology_rate = 5.0;       // [Hz]
+  double plan_rate = 10.0;          // [Hz]
+  double plan_delay = 0.05;         // [s]
+  double local_map_size = 10.0;     // [m]
+  double jump_distance = 1.0;       // [m]
+  double jump_angle = 1.0;          // [rad]
+  double arrival_hysteresis = 0.2;  // [m]
 
   template <class Visitor>
   void visit(Visitor& v) {

@@ -12,9 +12,9 @@ namespace parley {
 /// A piece of an obstacle's outline in the odom frame. Outlines are cut at the borders of the map's tiles, so that a
 /// change in one place leaves all other pieces as they were.
 struct Contour {
-  Polygon polygon;      // [m] corners in order
-  bool hole = false;    // closed, and the obstacle is around it rather than inside
-  bool closed = false;  // the last corner is joined to the first
+  Polygon polygon;                                 // [m] corners in order
+  bool hole = false;                               // closed, and the obstacle is around it rather than inside
+  bool closed = false;                             // the last corner is joined to the first
   Eigen::Vector2i tile = Eigen::Vector2i::Zero();  // [-] the tile it lies in: with `piece` a name that stays
   int piece = 0;                                   // [-] counts within the tile
 };

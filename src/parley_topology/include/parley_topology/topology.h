@@ -18,15 +18,15 @@ namespace parley {
 
 /// What an update did and what is held after it.
 struct TopologyResult {
-  bool changed = false;   // the graph is not what it was
-  int vertices = 0;       // [-]
-  int edges = 0;          // [-]
-  int added = 0;          // [-] vertices that were not there before
-  int removed = 0;        // [-] vertices that are gone
-  int tiles = 0;          // [-]
-  int layers = 0;         // [-]
-  int refused = 0;        // [-] scans, poses and layers that were not usable, since the start
-  bool saturated = false; // a bound was met: something is not in the map or the graph
+  bool changed = false;    // the graph is not what it was
+  int vertices = 0;        // [-]
+  int edges = 0;           // [-]
+  int added = 0;           // [-] vertices that were not there before
+  int removed = 0;         // [-] vertices that are gone
+  int tiles = 0;           // [-]
+  int layers = 0;          // [-]
+  int refused = 0;         // [-] scans, poses and layers that were not usable, since the start
+  bool saturated = false;  // a bound was met: something is not in the map or the graph
 };
 
 /// The strategic layer of a robot (the paper's Algorithm 1): fuses obstacle scans and peers' outlines into one map, keeps

@@ -20,23 +20,24 @@ struct Vertex {
   Eigen::Vector2d previous = Eigen::Vector2d::Zero();   // unit, along the outline to the corner before
   Eigen::Vector2d next = Eigen::Vector2d::Zero();       // unit, along the outline to the corner after
   VertexClass kind = VertexClass::kCorner;
-  int id = 0;     // [-] kept while the corner is found again near where it was
-  int votes = 1;  // [-] times its surroundings changed and it was found again
+  bool at_unknown = false;  // space that was never seen begins here: edges to others of this kind have no limit of length
+  int id = 0;               // [-] kept while the corner is found again near where it was
+  int votes = 1;            // [-] times its surroundings changed and it was found again
   Provenance provenance;
 };
 
 /// A straight way between two corners, or from one to start or goal.
 struct Edge {
-  int from = -1;                   // [-] slot of the vertex
-  int to = -1;                     // [-] slot of the vertex
-  double length = 0.0;             // [m]
-  double clearance = 0.0;          // [m] width of the narrowest passage it leads through, capped
-  double unknown_length = 0.0;     // [m] through space own sensing has not seen
-  double narrow_length = 0.0;      // [m] through narrow passages, weighted by how narrow (0 to 1)
-  double tentative_length = 0.0;   // [m] within reach of outlines whose pose is not confirmed
-  double cost = 0.0;               // [m] length with what is unknown, narrow or tentative made dearer
-  bool measured = false;           // all but the length is worked out when first needed
-  Provenance provenance;           // of the less direct of its ends
+  int from = -1;                  // [-] slot of the vertex
+  int to = -1;                    // [-] slot of the vertex
+  double length = 0.0;            // [m]
+  double clearance = 0.0;         // [m] width of the narrowest passage it leads through, capped
+  double unknown_length = 0.0;    // [m] through space own sensing has not seen
+  double narrow_length = 0.0;     // [m] through narrow passages, weighted by how narrow (0 to 1)
+  double tentative_length = 0.0;  // [m] within reach of outlines whose pose is not confirmed
+  double cost = 0.0;              // [m] length with what is unknown, narrow or tentative made dearer
+  bool measured = false;          // all but the length is worked out when first needed
+  Provenance provenance;          // of the less direct of its ends
 };
 
 /// Whether a straight way leaving `vertex` in the unit direction `ray` only touches its obstacle, so that it can be part
