@@ -34,10 +34,11 @@ def changed():
 
 
 def sources(build):
-    """Our own translation units but the tests."""
+    """Our own translation units but tests and benchmarks."""
     entries = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
     paths = {Path(entry["directory"], entry["file"]).resolve() for entry in entries}
-    return sorted(path for path in paths if path.is_relative_to(Path("src").resolve()) and "test" not in path.parts)
+    ours = (path for path in paths if path.is_relative_to(Path("src").resolve()))
+    return sorted(path for path in ours if not {"test", "bench", "benchmark"} & set(path.parts))
 
 
 def affected(units, paths):

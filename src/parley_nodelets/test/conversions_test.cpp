@@ -13,7 +13,7 @@
 namespace parley {
 namespace {
 
-constexpr float kInf = std::numeric_limits<float>::infinity();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 TEST(Time, StaysWithinWhatRosCanHold) {
@@ -60,7 +60,7 @@ TEST(RangeScanMessage, ComesBackWithAllThatRep117Means) {
   scan.time_increment = 0.125;
   scan.range_min = 0.5;
   scan.range_max = 4.0;
-  scan.ranges = {1.0F, kInf, -kInf, kNan};
+  scan.ranges = {1.0F, kInfinity, -kInfinity, kNan};
   const RangeScan back = fromMessage(toMessage(scan, "lidar"));
   EXPECT_EQ(back.stamp, scan.stamp);
   EXPECT_EQ(back.angle_min, scan.angle_min);
@@ -68,8 +68,8 @@ TEST(RangeScanMessage, ComesBackWithAllThatRep117Means) {
   EXPECT_EQ(back.time_increment, scan.time_increment);
   EXPECT_EQ(back.range_max, scan.range_max);
   ASSERT_EQ(back.ranges.size(), 4U);
-  EXPECT_EQ(back.ranges[1], kInf);
-  EXPECT_EQ(back.ranges[2], -kInf);
+  EXPECT_EQ(back.ranges[1], kInfinity);
+  EXPECT_EQ(back.ranges[2], -kInfinity);
   EXPECT_TRUE(std::isnan(back.ranges[3]));
 }
 
@@ -132,7 +132,7 @@ ObstacleScan someScan() {
   scan.stamp = 3.25;
   scan.range_max = 4.0;
   scan.origin = {0.2, -0.1};
-  scan.ranges = {1.0F, kInf, kNan, 2.0F};
+  scan.ranges = {1.0F, kInfinity, kNan, 2.0F};
   scan.transient = {false, false, false, true};
   scan.points = {{1.0F, 0.5F}};
   scan.blobs = {{{1.0, 2.0}, 0.4, 7}};
@@ -163,7 +163,7 @@ TEST(ObstacleScanMessage, InconsistentOnesAreRefused) {
   message.origin.x = kNan;
   EXPECT_FALSE(fromMessage(message));
   message = toMessage(someScan(), "base_link");
-  message.points[0].x = kInf;
+  message.points[0].x = kInfinity;
   EXPECT_FALSE(fromMessage(message));
   EXPECT_FALSE(fromMessage(parley_msgs::ObstacleScan()));
 }

@@ -200,14 +200,18 @@ Footprint testFootprint() { return {0.8, 0.4}; }
 
 namespace {
 
-/// A step along a way; stops at its end.
-Eigen::Vector2d stepAlong(const std::vector<Eigen::Vector2d>& way, double step) {
-  for (std::size_t i = 0; i + 1 < way.size(); ++i) {
-    const double length = (way[i + 1] - way[i]).norm();
-    if (length >= step) return way[i] + (way[i + 1] - way[i]) * (step / length);
+/// What is left of a way after a step along it.
+std::vector<Eigen::Vector2d> stepAlong(std::vector<Eigen::Vector2d> way, double step) {
+  while (way.size() > 1) {
+    const double length = (way[1] - way[0]).norm();
+    if (length > step) {
+      way[0] += (way[1] - way[0]) * (step / length);
+      return way;
+    }
     step -= length;
+    way.erase(way.begin());
   }
-  return way.back();
+  return way;
 }
 
 }  // namespace
@@ -225,19 +229,14 @@ Drive drive(Topology& topology, const TestWorld& world, Eigen::Vector2d position
       const TopologyResult update = topology.update();
       result.last = topology.route(pose, goal, 0.1 * i);
       if (options.after) options.after(i, update, result.last);
-    } else {
-      result.last.points.front() = position;
     }
     result.switches = result.last.switches;
     if (!result.last.exists()) return result;
-    const Eigen::Vector2d next = stepAlong(result.last.points, options.step);
+    result.last.points = stepAlong(result.last.points, options.step);
+    const Eigen::Vector2d next = result.last.points.front();
     yaw = std::atan2(next.y() - position.y(), next.x() - position.x());
     result.length += (next - position).norm();
     result.hit = result.hit || world.isSolid(next);
-    if (options.step > 0.0 && i % 2) {  // keep the rest of the way in step between two routes
-      while (result.last.points.size() > 2 && (result.last.points[1] - next).norm() < 1e-9)
-        result.last.points.erase(result.last.points.begin());
-    }
     position = next;
     if ((position - goal).norm() < 0.3) {
       result.arrived = true;
