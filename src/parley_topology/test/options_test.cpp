@@ -60,7 +60,8 @@ TEST(TopologyOptions, theReadmeHoldsTheTable) {
   std::stringstream text;
   text << file.rdbuf();
   EXPECT_NE(text.str().find(optionTable(listOptions(TopologyOptions()))), std::string::npos)
-      << "the table should be:\n" << optionTable(listOptions(TopologyOptions()));
+      << "the table should be:\n"
+      << optionTable(listOptions(TopologyOptions()));
 }
 
 TEST(TopologyOptions, defaultsAreWithinTheirRanges) { EXPECT_EQ(joined(checkOptions(TopologyOptions(), "defaults")), ""); }

@@ -56,9 +56,7 @@ TEST(Topology, goesAroundAColumnByTheShorterSide) {
 }
 
 TEST(Topology, corridorHasItsWidth) {
-  const TestWorld world = TestWorld::fromText({"############",
-                                               "#..........#",
-                                               "############"}, 1.2);
+  const TestWorld world = TestWorld::fromText({"############", "#..........#", "############"}, 1.2);
   Topology topology({}, testFootprint());
   explore(topology, world, 0.6);
   const Route route = topology.route(at(2.0, 1.8), {12.0, 1.8}, 0.0);
@@ -68,14 +66,9 @@ TEST(Topology, corridorHasItsWidth) {
 }
 
 TEST(Topology, crossOfCorridors) {
-  const TestWorld world = TestWorld::fromText({"#####.#####",
-                                               "#####.#####",
-                                               "#####.#####",
-                                               "#####.#####",
-                                               "...........",
-                                               "#####.#####",
-                                               "#####.#####",
-                                               "#####.#####"}, 1.0);
+  const TestWorld world = TestWorld::fromText(
+      {"#####.#####", "#####.#####", "#####.#####", "#####.#####", "...........", "#####.#####", "#####.#####", "#####.#####"},
+      1.0);
   Topology topology({}, testFootprint());
   explore(topology, world, 0.5);
   const Route route = topology.route(at(0.5, 3.5), {5.5, 0.5}, 0.0);
@@ -162,24 +155,19 @@ TEST(Topology, routesAreAsShortAsAGridsOnceAllIsSeen) {
 }
 
 TEST(Topology, leavesATrapOnceAndDoesNotComeBack) {
-  const TestWorld world = TestWorld::fromText({"........................",
-                                               "........................",
-                                               "......##############....",
-                                               "...................#....",
-                                               "...................#....",
-                                               "...................#....",
-                                               "...................#....",
-                                               "...................#....",
-                                               "......##############....",
-                                               "........................",
-                                               "........................"}, 1.0);
+  const TestWorld world = TestWorld::fromText(
+      {"........................", "........................", "......##############....", "...................#....",
+       "...................#....", "...................#....", "...................#....", "...................#....",
+       "......##############....", "........................", "........................"},
+      1.0);
   Topology topology({}, discLike());
   int entries = 0;
   bool inside = false;
   DriveOptions options;
   options.noise = 0.02;
   options.after = [&](int, const TopologyResult&, const Route& route) {
-    const bool now_inside = route.points.front().x() > 12.0 && route.points.front().x() < 19.0 && std::abs(route.points.front().y() - 5.5) < 2.5;
+    const bool now_inside =
+        route.points.front().x() > 12.0 && route.points.front().x() < 19.0 && std::abs(route.points.front().y() - 5.5) < 2.5;
     entries += now_inside && !inside ? 1 : 0;
     inside = now_inside;
   };
