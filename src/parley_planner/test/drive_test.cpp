@@ -149,7 +149,7 @@ TEST_F(GeneratorTest, StopsForWhatWillCross) {
   const LocalMap map = seenMap(World(10, 10, false));
   const TrajectoryPoint start{0.0, {3.0, 5.0, 0.0}, {1.5, 0.0}};
   EXPECT_EQ(generate(map, {{3.0, 5.0}, {8.0, 5.0}}, start, {track}).end, DriveEnd::kTrack);
-  track.moving = false;
+  track.moving = track.has_moved = false;
   EXPECT_EQ(generate(map, {{3.0, 5.0}, {8.0, 5.0}}, start, {track}).end, DriveEnd::kPathEnd);
 }
 
