@@ -23,6 +23,8 @@ def summaries(build):
 def main():
     build, packages = sys.argv[1], sys.argv[2:]
     files = summaries(build)
+    if not any(ran for _, _, ran in files):
+        sys.exit("No test ran.")
     low = []
     print(f"{'package':<32}{'lines':>8}{'covered':>9}")
     for package in packages:

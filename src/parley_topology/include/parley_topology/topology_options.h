@@ -38,8 +38,8 @@ struct TopologyOptions {
   int max_flood = 20000000;      // [-]
 
   int max_tiles = 4096;           // [-]
-  int max_vertices = 8192;        // [-]
-  int max_pairs = 1000000;        // [-]
+  int max_vertices = 32768;        // [-]
+  int max_pairs = 4000000;        // [-]
   int max_layers = 64;            // [-]
   int max_layer_contours = 4096;  // [-]
   int max_layer_cells = 200000;   // [-]
@@ -82,7 +82,7 @@ struct TopologyOptions {
               "cells looked at to make sure that there is no way when the graph has none");
     v.integer("max_tiles", max_tiles, "-", 1, 100000, "tiles of 64 by 64 cells; space beyond them stays unknown");
     v.integer("max_vertices", max_vertices, "-", 16, 100000, "corners in the graph; later ones are left out");
-    v.integer("max_pairs", max_pairs, "-", 64, 10000000, "pairs of corners watched for an edge; later ones are left out");
+    v.integer("max_pairs", max_pairs, "-", 64, 100000000, "pairs of corners watched for an edge; later ones are left out");
     v.integer("max_layers", max_layers, "-", 0, 1000, "origins whose outlines are held; later ones are refused");
     v.integer("max_layer_contours", max_layer_contours, "-", 1, 100000, "outlines held of one origin; the rest is left out");
     v.integer("max_layer_cells", max_layer_cells, "-", 100, 10000000,
