@@ -9,7 +9,6 @@ namespace parley::sim {
 namespace {
 
 constexpr double kRangeMin = 0.05;  // [m]
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
