@@ -39,7 +39,8 @@ struct Explored {
   Pose2 nextPose() {
     do {
       const Pose2 next = integrateTwist(pose_, 2.0, turn_, 0.2);
-      if (world.isClear(next.position(), 0.3)) {
+      const bool inside = next.x < 40.0 && next.y < 40.0;  // as much to see in either world
+      if (inside && world.isClear(next.position(), 0.3)) {
         pose_ = next;
         turn_ = 0.3 * (unit(random) - 0.5);
       } else {

@@ -13,8 +13,7 @@ constexpr int kBlocksPerTile = kTileSize / kBlockSize;
 ChangedBlocks::ChangedBlocks(const TiledMap& map, double influence) : block_(map.resolution() * kBlockSize) {
   const int margin = static_cast<int>(std::ceil(influence / block_));
   bool any = false;
-  for (const auto& tile : map.tiles()) {
-    if (!tile->changed_seen && !tile->changed_field) continue;
+  for (const Tile* tile : map.changed()) {
     const int x0 = tile->tx * kBlocksPerTile, y0 = tile->ty * kBlocksPerTile;
     const CellRect blocks = CellRect{x0, y0, x0 + kBlocksPerTile, y0 + kBlocksPerTile}.grown(margin);
     rect_ = any ? rect_.united(blocks) : blocks;
@@ -22,7 +21,7 @@ ChangedBlocks::ChangedBlocks(const TiledMap& map, double influence) : block_(map
   }
   if (!any) return;
   touch_.assign(static_cast<std::size_t>(rect_.width()) * static_cast<std::size_t>(rect_.height()), kUntouched);
-  for (const auto& tile : map.tiles()) mark(*tile, margin);
+  for (const Tile* tile : map.changed()) mark(*tile, margin);
 }
 
 void ChangedBlocks::mark(const Tile& tile, int margin) {
@@ -35,11 +34,6 @@ void ChangedBlocks::mark(const Tile& tile, int margin) {
     }
     if (tile.changed_passable & bit) at(x, y) = kPassage;
   }
-}
-
-bool ChangedBlocks::isFarFrom(const Eigen::Vector2d& p, double reach) const {
-  return p.x() < rect_.x0 * block_ - reach || p.x() > rect_.x1 * block_ + reach || p.y() < rect_.y0 * block_ - reach ||
-         p.y() > rect_.y1 * block_ + reach;
 }
 
 ChangedBlocks::Touch ChangedBlocks::touchOf(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {

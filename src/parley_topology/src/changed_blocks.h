@@ -20,8 +20,8 @@ class ChangedBlocks {
   /// The most that any change does to a way.
   Touch touchOf(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
 
-  /// Whether a point is further than `reach` [m] from all that changed, in x or in y.
-  bool isFarFrom(const Eigen::Vector2d& p, double reach) const;
+  /// In which cells all that changed is, with what it bears on.
+  CellRect cells() const { return {rect_.x0 * kBlockSize, rect_.y0 * kBlockSize, rect_.x1 * kBlockSize, rect_.y1 * kBlockSize}; }
   bool empty() const { return touch_.empty(); }
 
  private:

@@ -131,6 +131,7 @@ void store(TiledMap& map, const FieldImage& image) {
     Tile* tile = map.find(tx, ty);
     if (!tile && !isFar(image, part)) tile = map.ensure(tx, ty);
     if (!tile) return;
+    const std::uint16_t before = tile->changed_field;
     for (int y = part.y0; y < part.y1; ++y) {
       const int row = y - image.rect.y0;
       for (int x = part.x0; x < part.x1; ++x) {
@@ -149,6 +150,7 @@ void store(TiledMap& map, const FieldImage& image) {
         tile->distance[i] = distance;
       }
     }
+    if (tile->changed_field != before) map.note(*tile);
   });
 }
 
@@ -156,7 +158,7 @@ void store(TiledMap& map, const FieldImage& image) {
 
 void refreshField(TiledMap& map, const FieldShape& shape) {
   std::vector<CellRect> rects;
-  for (const auto& tile : map.tiles()) {
+  for (Tile* tile : map.changed()) {
     if (tile->changed_cells) rects.push_back(changedRect(*tile));
     tile->changed_cells = 0;
   }

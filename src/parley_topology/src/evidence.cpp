@@ -59,7 +59,9 @@ void addEvidence(TiledMap& map, const ScanImage& image, const TopologyOptions& o
   forEachTile(image.rect, [&](int tx, int ty, const CellRect& part) {
     Tile* tile = map.find(tx, ty);
     if (!tile && hasMarks(image, part)) tile = map.ensure(tx, ty);
-    if (tile) addToTile(*tile, image, part, voting);
+    if (!tile) return;
+    addToTile(*tile, image, part, voting);
+    if (tile->changed_seen) map.note(*tile);
   });
 }
 

@@ -66,7 +66,7 @@ void forEachAround(TiledMap& map, const Tile& tile, const Visit& visit) {
 /// In a fixed order. Who is behind a corner and whether it is at unseen space can change without any distance changing.
 TouchedTiles touchedTiles(TiledMap& map) {
   TouchedTiles touched;
-  for (const auto& tile : map.tiles()) {
+  for (const Tile* tile : map.changed()) {
     forEachAround(map, *tile, [&](Tile* near, int dx, int dy) {
       if (tile->changed_seen & blocksTowards(dx, dy)) touched.corners.push_back(near);
     });
@@ -99,7 +99,7 @@ GraphBuilder::Result GraphBuilder::update(TiledMap& map, const LayerStore& layer
     pending[static_cast<std::size_t>(slot)] = 0;
     connect(map, slot, pending);
   }
-  for (const auto& tile : map.tiles()) tile->changed_field = tile->changed_passable = tile->changed_seen = 0;
+  map.forgetChanges();
   result.changed = edges_changed || result.added + result.removed > 0;
   return result;
 }
@@ -149,6 +149,7 @@ std::vector<int> GraphBuilder::matchCorners(TiledMap& map, const std::vector<Til
       }
       const int slot = graph_.addVertex(corner);
       if (static_cast<std::size_t>(slot) >= pairs_of_.size()) pairs_of_.emplace_back();
+      if (corner.at_unknown) at_unknown_.insert(slot);
       tile->vertices.push_back(slot);
       fresh.push_back(slot);
       ++result.added;
@@ -161,16 +162,15 @@ std::vector<int> GraphBuilder::matchCorners(TiledMap& map, const std::vector<Til
 bool GraphBuilder::refreshPairs(TiledMap& map, const ChangedBlocks& changed) {
   std::vector<int> affected = pairsNoLongerShut(map);
   bool any = !affected.empty();
-  for (int slot = 0; slot < graph_.slotCount(); ++slot) {
-    if (!graph_.has(slot)) continue;
-    const Vertex& vertex = graph_.vertex(slot);
-    if (!vertex.at_unknown && changed.isFarFrom(vertex.position, options_.max_edge)) continue;
+  std::vector<int> slots = slotsWithin(map, changed.cells().grown(cellsOf(options_.max_edge)));
+  slots.insert(slots.end(), at_unknown_.begin(), at_unknown_.end());  // with edges of any length
+  std::sort(slots.begin(), slots.end());
+  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+  for (const int slot : slots) {
     for (const VisibilityGraph::Link& link : graph_.links(slot)) {
       Edge& edge = graph_.edge(link.edge);
       if (edge.from != slot) continue;
-      const Eigen::Vector2d& a = graph_.vertex(slot).position;
-      const Eigen::Vector2d& b = graph_.vertex(link.to).position;
-      const ChangedBlocks::Touch touch = changed.touchOf(a, b);
+      const ChangedBlocks::Touch touch = changed.touchOf(graph_.vertex(slot).position, graph_.vertex(link.to).position);
       if (touch == ChangedBlocks::kUntouched) continue;
       any = true;
       edge.measured = false;
@@ -181,10 +181,19 @@ bool GraphBuilder::refreshPairs(TiledMap& map, const ChangedBlocks& changed) {
   return any;
 }
 
+std::vector<int> GraphBuilder::slotsWithin(const TiledMap& map, const CellRect& cells) const {
+  std::vector<int> slots;
+  forEachTile(cells, [&](int tx, int ty, const CellRect&) {
+    const Tile* tile = map.find(tx, ty);
+    if (tile) slots.insert(slots.end(), tile->vertices.begin(), tile->vertices.end());
+  });
+  return slots;
+}
+
 /// Pairs whose watched cell is passable now; takes them off the watch.
 std::vector<int> GraphBuilder::pairsNoLongerShut(TiledMap& map) {
   std::vector<int> freed;
-  for (const auto& tile : map.tiles()) {
+  for (Tile* tile : map.changed()) {
     if (!tile->changed_passable) continue;
     std::vector<Watch> kept;
     for (const Watch& watch : tile->watches) {
@@ -199,34 +208,44 @@ std::vector<int> GraphBuilder::pairsNoLongerShut(TiledMap& map) {
   return freed;
 }
 
+/// Makes the pairs of a new corner with all others but those pending, which will make theirs with it.
 void GraphBuilder::connect(TiledMap& map, int slot, const std::vector<char>& pending) {
-  const Vertex vertex = graph_.vertex(slot);
-  for (int other = 0; other < graph_.slotCount(); ++other) {
-    if (other == slot || !graph_.has(other) || pending[static_cast<std::size_t>(other)]) continue;
-    const Vertex& end = graph_.vertex(other);
-    const Eigen::Vector2d way = end.position - vertex.position;
-    const double length = way.norm();
-    const bool unlimited = vertex.at_unknown && end.at_unknown;
-    if ((length > options_.max_edge && !unlimited) || length < 1e-6) continue;
-    const Eigen::Vector2d ray = way / length;
-    if (!isTangent(vertex, ray, kTangentSlack) || !isTangent(end, ray, kTangentSlack)) continue;
-    int pair = static_cast<int>(pairs_.size());
-    if (!free_pairs_.empty()) {
-      pair = free_pairs_.back();
-      free_pairs_.pop_back();
-    } else if (pair < options_.max_pairs) {
-      pairs_.emplace_back();
-    } else {
-      saturated_ = true;
-      return;
-    }
-    Pair& made = pairs_[static_cast<std::size_t>(pair)];
-    made.a = slot;
-    made.b = other;
-    pairs_of_[static_cast<std::size_t>(slot)].push_back(pair);
-    pairs_of_[static_cast<std::size_t>(other)].push_back(pair);
-    settle(map, pair);
+  const Vertex& vertex = graph_.vertex(slot);
+  const int x = map.cellOf(vertex.position.x()), y = map.cellOf(vertex.position.y());
+  const auto length = [&](int other) { return (graph_.vertex(other).position - vertex.position).norm(); };
+  for (const int other : slotsWithin(map, CellRect{x, y, x + 1, y + 1}.grown(cellsOf(options_.max_edge)))) {
+    if (!pending[static_cast<std::size_t>(other)] && length(other) <= options_.max_edge) tryPair(map, slot, other);
   }
+  if (!vertex.at_unknown) return;
+  for (const int other : at_unknown_) {
+    if (!pending[static_cast<std::size_t>(other)] && length(other) > options_.max_edge) tryPair(map, slot, other);
+  }
+}
+
+void GraphBuilder::tryPair(TiledMap& map, int slot, int other) {
+  const Vertex& vertex = graph_.vertex(slot);
+  const Vertex& end = graph_.vertex(other);
+  const Eigen::Vector2d way = end.position - vertex.position;
+  const double length = way.norm();
+  if (length < 1e-6) return;
+  const Eigen::Vector2d ray = way / length;
+  if (!isTangent(vertex, ray, kTangentSlack) || !isTangent(end, ray, kTangentSlack)) return;
+  int pair = static_cast<int>(pairs_.size());
+  if (!free_pairs_.empty()) {
+    pair = free_pairs_.back();
+    free_pairs_.pop_back();
+  } else if (pair < options_.max_pairs) {
+    pairs_.emplace_back();
+  } else {
+    saturated_ = true;
+    return;
+  }
+  Pair& made = pairs_[static_cast<std::size_t>(pair)];
+  made.a = slot;
+  made.b = other;
+  pairs_of_[static_cast<std::size_t>(slot)].push_back(pair);
+  pairs_of_[static_cast<std::size_t>(other)].push_back(pair);
+  settle(map, pair);
 }
 
 /// Walks a pair's way: makes or removes its edge, and sets its watch.
@@ -274,6 +293,7 @@ void GraphBuilder::watch(TiledMap& map, int pair) {
 void GraphBuilder::removeVertex(int slot) {
   std::vector<int>& pairs = pairs_of_[static_cast<std::size_t>(slot)];
   while (!pairs.empty()) removePair(pairs.back());
+  at_unknown_.erase(slot);
   graph_.removeVertex(slot);
 }
 

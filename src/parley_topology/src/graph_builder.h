@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <set>
 #include <vector>
 
 #include "changed_blocks.h"
@@ -47,6 +48,9 @@ class GraphBuilder {
   bool refreshPairs(TiledMap& map, const ChangedBlocks& changed);
   std::vector<int> pairsNoLongerShut(TiledMap& map);
   void connect(TiledMap& map, int slot, const std::vector<char>& pending);
+  void tryPair(TiledMap& map, int slot, int other);
+  int cellsOf(double length) const { return static_cast<int>(std::ceil(length / options_.resolution)); }
+  std::vector<int> slotsWithin(const TiledMap& map, const CellRect& cells) const;
   void settle(TiledMap& map, int pair);
   void watch(TiledMap& map, int pair);
   void watchTile(Tile& tile, int pair);
@@ -60,6 +64,7 @@ class GraphBuilder {
   std::vector<int> free_pairs_;
   std::vector<int> pair_of_edge_;           // by slot of an edge
   std::vector<std::vector<int>> pairs_of_;  // by slot of a vertex
+  std::set<int> at_unknown_;                // slots of vertices at unseen space
   int next_id_ = 0;
   bool saturated_ = false;
 };

@@ -3,15 +3,31 @@
 
 #include <array>
 
+#include "parley_geometry/polygon.h"
+
 namespace parley {
 namespace {
 
 constexpr int kMargin = 8;  // [cells] of open space around all that is known, to go around it
 
+/// Where a way may be: anywhere if there are no points.
+struct Tube {
+  const std::vector<Eigen::Vector2d>& points;
+  double radius;  // [m]
+
+  bool holds(const Eigen::Vector2d& p) const {
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      if (pointSegmentDistance(p, points[i], points[i + 1]) <= radius) return true;
+    }
+    return points.empty();
+  }
+};
+
 /// Two floods over the cells of a rectangle that holds all tiles, start and goal. Cells are numbered by rows.
 class TwoFloods {
  public:
-  TwoFloods(const TiledMap& map, const Eigen::Vector2i& start, const Eigen::Vector2i& goal) : map_(map) {
+  TwoFloods(const TiledMap& map, const Eigen::Vector2i& start, const Eigen::Vector2i& goal, const Tube& tube)
+      : map_(map), tube_(tube) {
     rect_ = CellRect{start.x(), start.y(), start.x() + 1, start.y() + 1}.united({goal.x(), goal.y(), goal.x() + 1, goal.y() + 1});
     for (const auto& tile : map.tiles()) rect_ = rect_.united(tile->rect());
     rect_ = rect_.grown(kMargin);
@@ -63,7 +79,7 @@ class TwoFloods {
       if (!(map_.flags(p.x(), p.y()) & kPassable)) continue;
       const int next = cell + step.x() + step.y() * rect_.width();
       char& owner = owner_[static_cast<std::size_t>(next)];
-      if (owner == own) continue;
+      if (owner == own || !tube_.holds(map_.centerOf(p.x(), p.y()))) continue;
       if (owner != 0) {
         meeting_ = turn == 0 ? std::array<int, 2>{cell, next} : std::array<int, 2>{next, cell};
         return true;
@@ -85,6 +101,7 @@ class TwoFloods {
   }
 
   const TiledMap& map_;
+  const Tube tube_;
   CellRect rect_;
   std::vector<int> parent_;
   std::vector<char> owner_;
@@ -96,9 +113,10 @@ class TwoFloods {
 }  // namespace
 
 std::vector<Eigen::Vector2d> searchGrid(const TiledMap& map, const Sight& sight, const Eigen::Vector2d& start,
-                                        const Eigen::Vector2d& goal, int max_cells) {
+                                        const Eigen::Vector2d& goal, int max_cells, const std::vector<Eigen::Vector2d>& tube,
+                                        double radius) {
   const auto cellOf = [&map](const Eigen::Vector2d& p) { return Eigen::Vector2i(map.cellOf(p.x()), map.cellOf(p.y())); };
-  const std::vector<Eigen::Vector2i> cells = TwoFloods(map, cellOf(start), cellOf(goal)).search(max_cells);
+  const std::vector<Eigen::Vector2i> cells = TwoFloods(map, cellOf(start), cellOf(goal), {tube, radius}).search(max_cells);
   if (cells.empty()) return {};
   std::vector<Eigen::Vector2d> way{start};
   std::size_t from = 0;

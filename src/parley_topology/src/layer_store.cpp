@@ -35,6 +35,7 @@ void addToCounts(TiledMap& map, const std::vector<std::uint64_t>& cells, bool ha
     const std::uint16_t block = blockBit(x, y);
     tile->changed_cells = static_cast<std::uint16_t>(tile->changed_cells | block);
     tile->changed_seen = static_cast<std::uint16_t>(tile->changed_seen | block);
+    map.note(*tile);
   }
 }
 

@@ -26,6 +26,17 @@ std::vector<char> tubeAround(const std::vector<Eigen::Vector2d>& way, double rad
   return inside;
 }
 
+/// Whether something occupied is at or beside a point. A side of what has gone is no side.
+bool isStillThere(const TiledMap& map, const Eigen::Vector2d& p) {
+  const int cx = map.cellOf(p.x()), cy = map.cellOf(p.y());
+  for (int y = cy - 1; y <= cy + 1; ++y) {
+    for (int x = cx - 1; x <= cx + 1; ++x) {
+      if (map.flags(x, y) & kFused) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 FoundRoute RouteKeeper::search(VisibilityGraph& graph, const Sight& sight, const RouteQuery& query) const {
@@ -42,16 +53,27 @@ FoundRoute RouteKeeper::choose(const TiledMap& map, VisibilityGraph& graph, cons
   std::vector<Eigen::Vector2d> held = committed_;  // from here back onto it; the spur encloses nothing
   held.insert(held.begin(), query.start);
   held.back() = query.goal;
+  obstacles_.erase(
+      std::remove_if(obstacles_.begin(), obstacles_.end(), [&](const Eigen::Vector2d& p) { return !isStillThere(map, p); }),
+      obstacles_.end());
   if (sameClass(obstacles_, held, best.points)) return best;
 
-  RouteQuery mending = query;
-  mending.allowed = tubeAround(held, options_.class_tube, graph);
-  FoundRoute mended = search(graph, sight, mending);
+  FoundRoute mended = mend(map, graph, sight, query, held);
   const bool open = mended.exists() && sameClass(obstacles_, held, mended.points);
   const double penalty = options_.switch_penalty + options_.switch_ratio * mended.cost;
   if (open && best.cost + penalty >= mended.cost) return mended;
   ++switches_;
   return best;
+}
+
+/// The best way near the one held; over the cells where the graph has none, before that is called shut.
+FoundRoute RouteKeeper::mend(const TiledMap& map, VisibilityGraph& graph, const Sight& sight, const RouteQuery& query,
+                             const std::vector<Eigen::Vector2d>& held) const {
+  RouteQuery mending = query;
+  mending.allowed = tubeAround(held, options_.class_tube, graph);
+  FoundRoute mended = search(graph, sight, mending);
+  if (mended.exists() && sameClass(obstacles_, held, mended.points)) return mended;
+  return measuredRoute(sight, searchGrid(map, sight, query.start, query.goal, options_.max_flood, held, options_.class_tube));
 }
 
 Route RouteKeeper::route(const TiledMap& map, VisibilityGraph& graph, const Sight& sight, const Eigen::Vector2d& start,
@@ -63,8 +85,9 @@ Route RouteKeeper::route(const TiledMap& map, VisibilityGraph& graph, const Sigh
   }
   Route route;
   route.verdict = RouteVerdict::kUnreachableAsKnown;
-  const std::optional<Eigen::Vector2d> from = sight.nearestPassable(start, options_.start_tolerance);
-  const std::optional<Eigen::Vector2d> to = sight.nearestPassable(goal, options_.goal_tolerance);
+  std::optional<Eigen::Vector2d> from = sight.nearestWith(kWide, start, options_.start_tolerance);
+  if (!from) from = sight.nearestWith(kPassable, start, options_.start_tolerance);
+  const std::optional<Eigen::Vector2d> to = sight.nearestWith(kPassable, goal, options_.goal_tolerance);
   FoundRoute found;
   if (from && to) found = choose(map, graph, sight, {*from, *to, {}});
   committed_ = found.points;

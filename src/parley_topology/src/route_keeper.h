@@ -22,6 +22,8 @@ class RouteKeeper {
   void clear() { *this = RouteKeeper(options_); }
 
  private:
+  FoundRoute mend(const TiledMap& map, VisibilityGraph& graph, const Sight& sight, const RouteQuery& query,
+                  const std::vector<Eigen::Vector2d>& held) const;
   FoundRoute search(VisibilityGraph& graph, const Sight& sight, const RouteQuery& query) const;
   FoundRoute choose(const TiledMap& map, VisibilityGraph& graph, const Sight& sight, const RouteQuery& query);
 

@@ -120,8 +120,8 @@ bool Sight::reaches(const Eigen::Vector2d& from, const Eigen::Vector2d& to) cons
   return true;
 }
 
-std::optional<Eigen::Vector2d> Sight::nearestPassable(const Eigen::Vector2d& p, double tolerance) const {
-  if (flagsAt(p) & kPassable) return p;
+std::optional<Eigen::Vector2d> Sight::nearestWith(CellFlag flag, const Eigen::Vector2d& p, double tolerance) const {
+  if (flagsAt(p) & flag) return p;
   const int cx = map_.cellOf(p.x()), cy = map_.cellOf(p.y());
   const int spread = static_cast<int>(std::ceil(tolerance / map_.resolution()));
   const bool from_inside = flagsAt(p) & kFused;
@@ -129,7 +129,7 @@ std::optional<Eigen::Vector2d> Sight::nearestPassable(const Eigen::Vector2d& p, 
   double least = tolerance;
   for (int y = cy - spread; y <= cy + spread; ++y) {
     for (int x = cx - spread; x <= cx + spread; ++x) {
-      if (!(map_.flags(x, y) & kPassable)) continue;
+      if (!(map_.flags(x, y) & flag)) continue;
       const Eigen::Vector2d candidate = map_.centerOf(x, y);
       const double distance = (candidate - p).norm();
       if (distance >= least || (!from_inside && !reaches(p, candidate))) continue;

@@ -32,9 +32,9 @@ class Sight {
   /// Walk and measure; nullopt if the way is not open.
   std::optional<Edge> look(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
 
-  /// The point itself if it is passable, else the nearest middle of a passable cell within `tolerance` [m] that is not
-  /// behind something occupied; nullopt if there is none.
-  std::optional<Eigen::Vector2d> nearestPassable(const Eigen::Vector2d& p, double tolerance) const;
+  /// The point itself if its cell has the flag (kWide or kPassable), else the nearest middle of a cell that has it, within
+  /// `tolerance` [m] and not behind something occupied; nullopt if there is none.
+  std::optional<Eigen::Vector2d> nearestWith(CellFlag flag, const Eigen::Vector2d& p, double tolerance) const;
 
   /// How far from an edge the map has a say in its measures. [m]
   double influence() const { return options_.clearance_cap; }

@@ -38,7 +38,16 @@ Tile* TiledMap::ensure(int tx, int ty) {
   return place;
 }
 
+void TiledMap::forgetChanges() {
+  for (Tile* tile : changed_) {
+    tile->changed_cells = tile->changed_seen = tile->changed_field = tile->changed_passable = 0;
+    tile->noted = false;
+  }
+  changed_.clear();
+}
+
 void TiledMap::clear() {
+  changed_.clear();
   tiles_.clear();
   std::fill(directory_.begin(), directory_.end(), nullptr);
   saturated_ = false;

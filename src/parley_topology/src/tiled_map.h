@@ -91,6 +91,7 @@ struct Tile {
   std::vector<int> vertices;  // slots
   std::vector<Watch> watches;
   std::size_t watches_after_sweep = 0;
+  bool noted = false;  // in the map's list of changed tiles
 
   CellRect rect() const { return {tx * kTileSize, ty * kTileSize, (tx + 1) * kTileSize, (ty + 1) * kTileSize}; }
 };
@@ -131,6 +132,15 @@ class TiledMap {
     return tile ? tile->distance[offsetOf(x, y)] : kFarAway;
   }
 
+  /// Puts a tile on the list of changed ones, whose `changed_` masks are looked at in the next update.
+  void note(Tile& tile) {
+    if (!tile.noted) changed_.push_back(&tile);
+    tile.noted = true;
+  }
+  const std::vector<Tile*>& changed() const { return changed_; }
+  /// Clears the list and the masks.
+  void forgetChanges();
+
   /// In the order in which they came.
   const std::vector<std::unique_ptr<Tile>>& tiles() const { return tiles_; }
   bool saturated() const { return saturated_; }
@@ -148,6 +158,7 @@ class TiledMap {
   bool saturated_ = false;
   std::vector<Tile*> directory_;
   std::vector<std::unique_ptr<Tile>> tiles_;
+  std::vector<Tile*> changed_;
 };
 
 /// Calls visit(tx, ty, part) for every tile place that a rectangle of cells overlaps, row by row.

@@ -13,6 +13,7 @@ void setOwn(TiledMap& map, int x, int y, bool occupied) {
   std::uint8_t& flags = tile.flags[offsetOf(x, y)];
   flags = static_cast<std::uint8_t>((flags | kSeen | kOwn) & ~(occupied ? 0 : kOwn));
   tile.changed_cells = static_cast<std::uint16_t>(tile.changed_cells | blockBit(x, y));
+  map.note(tile);
 }
 
 }  // namespace
@@ -83,7 +84,7 @@ TEST(ClearanceField, changesAreToldByBlock) {
   Tile& tile = *map.find(0, 0);
   EXPECT_EQ(tile.changed_cells, 0);
   EXPECT_TRUE(tile.changed_field & blockBit(8, 8));
-  tile.changed_field = tile.changed_passable = 0;
+  map.forgetChanges();
   setOwn(map, 60, 60, true);  // nothing new
   refreshField(map, shape);
   EXPECT_EQ(tile.changed_field, 0);

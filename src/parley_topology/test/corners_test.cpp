@@ -21,6 +21,7 @@ class Drawing {
         Tile& tile = *map.ensure(tileOf(x), tileOf(y));
         tile.flags[offsetOf(x, y)] |= kSeen | kOwn;
         tile.changed_cells = 0xffff;
+        map.note(tile);
       }
     }
   }

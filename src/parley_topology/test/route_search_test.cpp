@@ -54,6 +54,7 @@ struct RandomCase {
         Tile& tile = *map.ensure(tileOf(cx), tileOf(cy));
         tile.flags[offsetOf(cx, cy)] |= kSeen | kOwn;
         tile.changed_cells = 0xffff;
+        map.note(tile);
       }
     }
   }

@@ -16,6 +16,7 @@ class Place {
         Tile& tile = *map.ensure(tileOf(x), tileOf(y));
         tile.flags[offsetOf(x, y)] |= bits;
         tile.changed_cells = 0xffff;
+        map.note(tile);
       }
     }
     refreshField(map, shape);
@@ -91,13 +92,14 @@ TEST(Sight, whatWasNotSeenOrIsTentativeIsDearer) {
 TEST(Sight, findsTheNearestClearPointOnThisSideOfAWall) {
   Place place;
   place.box(2.0, -2.0, 2.05, 2.0);
-  const std::optional<Eigen::Vector2d> left = place.sight.nearestPassable({1.95, 0.0}, 0.6);
+  const std::optional<Eigen::Vector2d> left = place.sight.nearestWith(kPassable, {1.95, 0.0}, 0.6);
   ASSERT_TRUE(left.has_value());
   EXPECT_LT(left->x(), 2.0);
   EXPECT_LT((*left - Eigen::Vector2d(1.95, 0.0)).norm(), 0.3);
-  EXPECT_FALSE(place.sight.nearestPassable({1.95, 0.0}, 0.05).has_value());
-  EXPECT_TRUE(place.sight.nearestPassable({2.02, 0.0}, 0.6).has_value());
-  EXPECT_EQ(*place.sight.nearestPassable({1.0, 0.0}, 0.0), Eigen::Vector2d(1.0, 0.0));
+  EXPECT_FALSE(place.sight.nearestWith(kPassable, {1.95, 0.0}, 0.05).has_value());
+  EXPECT_TRUE(place.sight.nearestWith(kPassable, {2.02, 0.0}, 0.6).has_value());
+  EXPECT_LT(place.sight.nearestWith(kWide, {1.95, 0.0}, 0.6)->x(), left->x());
+  EXPECT_EQ(*place.sight.nearestWith(kPassable, {1.0, 0.0}, 0.0), Eigen::Vector2d(1.0, 0.0));
 }
 
 TEST(Sight, edgesAreMeasuredOnce) {

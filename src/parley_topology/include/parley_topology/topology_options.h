@@ -38,7 +38,7 @@ struct TopologyOptions {
   int max_flood = 20000000;      // [-]
 
   int max_tiles = 4096;           // [-]
-  int max_vertices = 32768;        // [-]
+  int max_vertices = 32768;       // [-]
   int max_pairs = 4000000;        // [-]
   int max_layers = 64;            // [-]
   int max_layer_contours = 4096;  // [-]
