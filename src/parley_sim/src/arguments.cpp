@@ -2,6 +2,7 @@
 #include "parley_sim/arguments.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 
 #include "parley_sim/input_error.h"
@@ -18,6 +19,13 @@ Override overrideOf(const std::string& word) {
   const std::size_t equals = word.find('=');
   if (equals == std::string::npos || equals == 0) throw InputError("--set: " + word + ": must be KEY=VALUE");
   return {word.substr(0, equals), word.substr(equals + 1)};
+}
+
+Question questionOf(const std::string& time, const std::string& robot) {
+  char* end = nullptr;
+  Question question{std::strtod(time.c_str(), &end), robot};
+  if (*end != '\0' || !(question.time >= 0.0)) throw InputError("--explain: " + time + ": must be a time in seconds from 0 on");
+  return question;
 }
 
 void check(const Arguments& arguments, const std::string& seed) {
@@ -61,6 +69,10 @@ Arguments parseArguments(const std::vector<std::string>& words) {
       } else {
         *text->second = words[i];
       }
+    } else if (word == "--explain") {
+      if (i + 2 >= words.size()) throw InputError("--explain: needs TIME and ROBOT");
+      arguments.questions.push_back(questionOf(words[i + 1], words[i + 2]));
+      i += 2;
     } else if (word.rfind('-', 0) == 0) {
       throw InputError(word + ": unknown argument; see fleet_run --help");
     } else if (!arguments.scenario.empty()) {
@@ -86,6 +98,7 @@ const char* usage() {
          "  --picture FILE.png   map and tracks\n"
          "  --bag FILE           one robot's topics for replay\n"
          "  --bag-robot NAME     which robot's, the first if not said\n"
+         "  --explain TIME ROBOT what it knew, wanted and decided then, as text and a picture; may be repeated\n"
          "  --quiet              no progress\n"
          "Exit status: 0 success, 1 the run ended otherwise, 2 unusable arguments or files.\n";
 }

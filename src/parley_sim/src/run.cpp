@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <sstream>
 
 #include "parley_sim/bag_recorder.h"
 #include "parley_sim/input_error.h"
@@ -25,11 +26,23 @@ void checkWritable(const std::string& argument, const std::string& file) {
   if (!file.empty() && !std::ofstream(file, std::ios::app)) throw InputError(argument + ": " + file + ": cannot be written");
 }
 
-std::size_t robotNamed(const Scenario& scenario, const std::string& name) {
+std::size_t robotNamed(const Scenario& scenario, const std::string& name, const std::string& argument) {
   const auto found = std::find_if(scenario.robots.begin(), scenario.robots.end(),
                                   [&name](const RobotSpec& robot) { return robot.name == name; });
-  if (found == scenario.robots.end()) throw InputError("--bag-robot: " + name + ": there is no such robot in " + scenario.file);
+  if (found == scenario.robots.end()) throw InputError(argument + ": " + name + ": there is no such robot in " + scenario.file);
   return static_cast<std::size_t>(found - scenario.robots.begin());
+}
+
+/// Answers a question once its time has come.
+StepObserver answerTo(const Question& question, const Scenario& scenario) {
+  const std::size_t robot = robotNamed(scenario, question.robot, "--explain");
+  std::ostringstream name;
+  name << "explain_" << question.robot << '_' << question.time << ".png";
+  return [robot, question, file = name.str(), done = false](const FleetRunner& runner) mutable {
+    if (done || runner.simulation().time() < question.time - 1e-6 || !runner.brain(robot)) return;
+    done = true;
+    std::cout << question.robot << " at " << question.time << " s, see " << file << "\n" << runner.brain(robot)->explain(file);
+  };
 }
 
 std::vector<StepObserver> observersFor(const Arguments& arguments, const Scenario& scenario) {
@@ -38,9 +51,10 @@ std::vector<StepObserver> observersFor(const Arguments& arguments, const Scenari
     observers.emplace_back([trace = std::make_shared<Trace>(arguments.trace)](const FleetRunner& r) { trace->note(r); });
   }
   if (!arguments.bag.empty()) {
-    const std::size_t robot = arguments.bag_robot.empty() ? 0 : robotNamed(scenario, arguments.bag_robot);
+    const std::size_t robot = arguments.bag_robot.empty() ? 0 : robotNamed(scenario, arguments.bag_robot, "--bag-robot");
     observers.push_back(recordBag(arguments.bag, robot));
   }
+  for (const Question& question : arguments.questions) observers.push_back(answerTo(question, scenario));
   return observers;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "explanation.h"
 #include "parley_robot/config.h"
 #include "parley_robot/robot_stack.h"
 #include "parley_sim/input_error.h"
@@ -30,7 +31,9 @@ RobotOptions optionsFor(RobotOptions options, const RobotSpec& spec, double goal
 
 class StackBrain : public Brain {
  public:
-  StackBrain(const RobotOptions& options, const Eigen::Vector2d& goal_odom) : stack_(options) { stack_.setGoal(goal_odom); }
+  StackBrain(const RobotOptions& options, const Eigen::Vector2d& goal_odom) : stack_(options), footprint_(options.footprint) {
+    stack_.setGoal(goal_odom);
+  }
 
   BrainOutput step(const SensorReadings& readings) override {
     if (readings.odometry) stack_.addOdometry(*readings.odometry);
@@ -47,11 +50,20 @@ class StackBrain : public Brain {
     output.replans = robot.replans;
     output.route_switches = robot.route_switches;
     output.escapes = robot.escapes;
+    state_ = std::string(toString(robot.state)) + (robot.reason.empty() ? "" : ": " + robot.reason);
     return output;
+  }
+
+  std::string explain(const std::string& picture) const override {
+    if (!picture.empty() && !drawExplanation(stack_, footprint_, picture))
+      throw InputError("--explain: " + picture + ": cannot be written");
+    return "state      " + state_ + "\n" + explanationOf(stack_);
   }
 
  private:
   RobotStack stack_;
+  Footprint footprint_;
+  std::string state_;
 };
 
 }  // namespace

@@ -55,6 +55,7 @@ class RobotStack {
   /// One turn of the loop at the robot's own time [s]; call it at the control rate, after the sensors.
   RobotOutput step(double now);
 
+  const OdometryBuffer& odometry() const { return odometry_; }
   const Topology& topology() const { return topology_; }
   const CommittedPlan& plan() const { return plan_; }
   const PlanResult& lastPlan() const { return last_plan_; }

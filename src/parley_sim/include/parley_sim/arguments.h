@@ -8,6 +8,12 @@
 
 namespace parley::sim {
 
+/// A moment of a robot that somebody wants to understand.
+struct Question {
+  double time = 0.0;  // [s] simulated
+  std::string robot;
+};
+
 /// What fleet_run was asked for.
 struct Arguments {
   bool help = false;
@@ -17,6 +23,7 @@ struct Arguments {
   std::vector<Override> overrides;                   // in the order in which they apply
   std::string config;                                // folder, empty: the defaults
   std::string json, trace, picture, bag, bag_robot;  // empty: not wanted
+  std::vector<Question> questions;
 };
 
 /// Throws InputError.

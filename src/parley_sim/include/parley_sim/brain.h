@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "parley_geometry/motion.h"
@@ -33,6 +34,8 @@ class Brain {
  public:
   virtual ~Brain() = default;
   virtual BrainOutput step(const SensorReadings& readings) = 0;
+  /// What it knew, wanted and decided in the last step, as text; a picture of it goes to a file unless that is empty.
+  virtual std::string explain(const std::string& /*picture*/) const { return {}; }
 };
 
 /// Makes the mind of a robot when it appears in the world; throws InputError if it cannot be configured.

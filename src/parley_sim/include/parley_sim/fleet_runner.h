@@ -26,6 +26,8 @@ class FleetRunner {
   /// What a robot's mind answered last.
   const BrainOutput& output(std::size_t robot) const { return outputs_[robot]; }
   DriveState state(std::size_t robot) const;
+  /// Null before the robot has joined.
+  const Brain* brain(std::size_t robot) const { return brains_[robot].get(); }
   /// Wall time of every run of a stage, all robots together. [s]
   const std::array<std::vector<float>, kStageNames.size()>& stageTimes() const { return stage_times_; }
 
