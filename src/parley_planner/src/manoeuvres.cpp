@@ -18,6 +18,7 @@ constexpr double kTurnWhileMoving = 1.9;  // [rad] off the heading, a moving rob
 constexpr double kWorthStarting = 0.04;   // [m] drives that get less far are not worth starting
 constexpr double kSqueezeReach = 1.2;     // [m] along the path, at least, to where the search for narrow places leads
 constexpr double kSqueezeMost = 3.0;      // [m] and at most
+constexpr double kSqueezeStep = 0.1;      // [m] between the points looked at
 
 MotionLimits shareOf(const MotionLimits& limits, double share) {
   return {limits.speed, limits.turn_rate * share, limits.acceleration * share, limits.turn_acceleration * share};
@@ -104,14 +105,27 @@ std::optional<Proposal> Manoeuvres::backOut(const ManoeuvreTask& task) const {
   return proposal;
 }
 
+/// The first point of a path, far enough along, with room for any heading; else the last that is in seen space with room
+/// for the footprint; 0 if there is none worth going to.
+std::size_t Manoeuvres::squeezeTarget(const Path& fine, const ManoeuvreTask& task) const {
+  const double room = footprint_.circumscribedRadius() + task.margins.creeping;
+  const double least = footprint_.inscribedRadius();
+  const Surroundings& around = task.scene.surroundings;
+  std::size_t target = 0;
+  for (std::size_t i = 1; i < fine.size() && static_cast<double>(i) <= kSqueezeMost / kSqueezeStep; ++i) {
+    const double free = around.obstacles().at(fine[i]);
+    if (free < least || around.unseen().at(fine[i]) < least) continue;
+    target = i;
+    if (free >= room && static_cast<double>(i) >= kSqueezeReach / kSqueezeStep) break;
+  }
+  return static_cast<double>(target) * kSqueezeStep < kTargetRadius ? 0 : target;
+}
+
 std::optional<Proposal> Manoeuvres::squeeze(const ManoeuvreTask& task) const {
   if (!stands(task.start.twist)) return std::nullopt;
-  // The target: where there is room for any heading, or as far as the bound.
-  const Path fine = resampled(task.path, 0.1);
-  const double room = footprint_.circumscribedRadius() + task.margins.creeping;
-  const auto most = std::min(fine.size() - 1, static_cast<std::size_t>(kSqueezeMost / 0.1));
-  std::size_t target = std::min(most, static_cast<std::size_t>(kSqueezeReach / 0.1));
-  while (target < most && task.scene.surroundings.obstacles().at(fine[target]) < room) ++target;
+  const Path fine = resampled(task.path, kSqueezeStep);
+  const std::size_t target = squeezeTarget(fine, task);
+  if (target == 0) return std::nullopt;
   NarrowSearchOptions search;
   search.expansions = options_.narrow_iterations;
   search.clearance = task.margins.creeping;
@@ -121,7 +135,8 @@ std::optional<Proposal> Manoeuvres::squeeze(const ManoeuvreTask& task) const {
                                                      generator_.limits(), options_.time_step, search);
   if (points.size() < 2) return std::nullopt;
   const double until = points.back().time;
-  return Proposal{SampledTrajectory(std::move(points)), task.path, DriveEnd::kPathEnd, 0.1 * static_cast<double>(target), until};
+  return Proposal{SampledTrajectory(std::move(points)), task.path, DriveEnd::kPathEnd, kSqueezeStep * static_cast<double>(target),
+                  until};
 }
 
 }  // namespace parley

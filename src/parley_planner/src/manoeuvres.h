@@ -43,6 +43,7 @@ class Manoeuvres {
   std::optional<Proposal> driveOn(const ManoeuvreTask& task, const TrajectoryPoint& start, bool reverse, const Path& path) const;
   std::optional<Proposal> turnAndDrive(const ManoeuvreTask& task) const;
   std::optional<Proposal> backOut(const ManoeuvreTask& task) const;
+  std::size_t squeezeTarget(const Path& fine, const ManoeuvreTask& task) const;
 
   PlannerOptions options_;
   Footprint footprint_;

@@ -6,17 +6,21 @@
 #include <queue>
 #include <unordered_map>
 
+#include "cost_to_go.h"
+
 namespace parley {
 
 namespace {
 
-constexpr double kCell = 0.1;                    // [m]
-constexpr int kHeadings = 24;                    // [-] in a full turn
+constexpr double kCell = 0.05;                   // [m]
+constexpr int kHeadings = 48;                    // [-] in a full turn
 constexpr double kTurn = 2.0 * kPi / kHeadings;  // [rad] of one move
-constexpr double kStride = 0.15;                 // [m] of one move
+constexpr double kStride = 0.1;                  // [m] of one move
 constexpr double kReversePrice = 1.3;            // [-] it is blind to nothing, but others expect it less
 constexpr double kSwitchPrice = 0.6;             // [s] another kind of move: stop and start again
 constexpr double kTypicalSpeed = 0.4;            // [m/s]
+constexpr double kReach = 8.0;                   // [m] longer ways are not looked for
+constexpr double kFieldError = 0.04;             // [m] by which cells may make a place look narrower than it is
 
 /// One move: a turn on the spot, or a stretch on a curvature.
 struct Move {
@@ -50,7 +54,12 @@ class Search {
  public:
   Search(const Pose2& start, const Eigen::Vector2d& target, const Surroundings& surroundings, const FootprintProbe& probe,
          const NarrowSearchOptions& options)
-      : target_(target), surroundings_(surroundings), probe_(probe), options_(options), moves_(allMoves()) {
+      : target_(target),
+        surroundings_(surroundings),
+        probe_(probe),
+        options_(options),
+        moves_(allMoves()),
+        guide_(surroundings, target, probe.inscribedRadius() - kFieldError, kReach) {
     floor_ = std::min(options.clearance, probe.clearance(surroundings.obstacles(), start) - 1e-3);
     unseen_floor_ = std::min(0.0, probe.clearance(surroundings.unseen(), start) - 1e-3);
     nodes_.push_back({start, -1, -1, 0.0, false});
@@ -79,7 +88,7 @@ class Search {
     const long heading = (std::lround(pose.yaw / kTurn) + kHeadings) % kHeadings;
     return (x * 200000 + y) * kHeadings + heading;
   }
-  double estimate(const Pose2& pose) const { return (pose.position() - target_).norm() / kTypicalSpeed; }
+  double estimate(const Pose2& pose) const { return guide_.at(pose.position()) / kTypicalSpeed; }
 
   bool isFree(const Pose2& pose) const {
     return probe_.clearance(surroundings_.obstacles(), pose) >= floor_ &&
@@ -98,12 +107,13 @@ class Search {
       const Node& known = nodes_[static_cast<std::size_t>(found->second)];
       if (known.closed || known.cost <= cost) return;
     }
-    if (!isFree(moved(parent.pose, move, 0.5)) || !isFree(pose)) return;
+    const double ahead = estimate(pose);
+    if (!std::isfinite(ahead) || !isFree(moved(parent.pose, move, 0.5)) || !isFree(pose)) return;
     nodes_.push_back({pose, from, move_index, cost, false});
     const int index = static_cast<int>(nodes_.size()) - 1;
     if (found != index_.end()) nodes_[static_cast<std::size_t>(found->second)].closed = true;
     index_[key(pose)] = index;
-    open_.push({cost + estimate(pose), index});
+    open_.push({cost + ahead, index});
   }
 
   std::vector<Move> movesTo(int node) const {
@@ -120,11 +130,21 @@ class Search {
   const FootprintProbe& probe_;
   const NarrowSearchOptions& options_;
   std::vector<Move> moves_;
+  CostToGo guide_;
   double floor_, unseen_floor_;
   std::vector<Node> nodes_;
   std::unordered_map<long, int> index_;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> open_;
 };
+
+/// From 0 to `total` in even steps, with the times at which the acceleration changes: between the states it is constant.
+std::vector<double> evenTimes(double total, std::vector<double> times, double time_step) {
+  const int steps = static_cast<int>(std::ceil(total / time_step));
+  for (int k = 0; k <= steps; ++k) times.push_back(std::min(total, k * time_step));
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end(), [](double a, double b) { return b - a < 1e-4; }), times.end());
+  return times;
+}
 
 }  // namespace
 
@@ -139,9 +159,7 @@ std::vector<TrajectoryPoint> driveArc(const TrajectoryPoint& start, double curva
   const double peak = std::min(top, std::sqrt(way * acceleration));
   const double ramp = peak / acceleration, hold = std::max(0.0, way / peak - ramp), total = 2.0 * ramp + hold;
   std::vector<TrajectoryPoint> points;
-  const int steps = static_cast<int>(std::ceil(total / time_step));
-  for (int k = 0; k <= steps; ++k) {
-    const double t = std::min(total, k * time_step);
+  for (const double t : evenTimes(total, {ramp, ramp + hold}, time_step)) {
     const double rising = std::min(t, ramp), level = std::clamp(t - ramp, 0.0, hold);
     const double falling = std::clamp(t - ramp - hold, 0.0, ramp);
     const double s = 0.5 * acceleration * (rising * rising - falling * falling) + peak * (level + falling);

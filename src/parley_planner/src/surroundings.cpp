@@ -57,7 +57,7 @@ Surroundings::Surroundings(const LocalMap& map, const ObstacleScan& scan, const 
                            const std::vector<TrackedObject>& tracks)
     : obstacles_(map.frame, obstacleMask(map, scan, T_odom_scan, tracks)), unseen_(map.frame, unseenMask(map), true) {}
 
-FootprintProbe::FootprintProbe(const Footprint& footprint) {
+FootprintProbe::FootprintProbe(const Footprint& footprint) : inscribed_(footprint.inscribedRadius()) {
   const double half_long = 0.5 * std::max(footprint.length, footprint.width);
   const double half_short = 0.5 * std::min(footprint.length, footprint.width);
   const bool along_x = footprint.length >= footprint.width;

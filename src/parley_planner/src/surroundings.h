@@ -35,6 +35,7 @@ class FootprintProbe {
   explicit FootprintProbe(const Footprint& footprint);
   /// [m] from the rectangle at `pose` to what the field marks; negative inside.
   double clearance(const DistanceField& field, const Pose2& pose) const;
+  double inscribedRadius() const { return inscribed_; }  // [m]
 
  private:
   struct Point {
@@ -42,6 +43,7 @@ class FootprintProbe {
     double radius;  // [m] of the disc that the point stands for
   };
   std::vector<Point> points_;
+  double inscribed_;  // [m]
 };
 
 }  // namespace parley

@@ -4,10 +4,12 @@
 
 #include <random>
 
+#include "cost_to_go.h"
 #include "drive_generator.h"
 #include "narrow_search.h"
 #include "progress_watch.h"
 #include "scenes.h"
+#include "trajectory_validator.h"
 
 namespace parley {
 namespace {
@@ -186,6 +188,40 @@ TEST(NarrowSearch, TurnsBeforeItEnters) {
   for (const TrajectoryPoint& p : points) EXPECT_FALSE(world.touches(robotFootprint(), p.pose));
   EXPECT_TRUE(searchNarrow(start, {1.0, 1.0}, surroundings, probe, robotLimits(), kStep, {40000, 0.04, 0.5}).empty());
   EXPECT_TRUE(searchNarrow(start, {5.0, 7.5}, surroundings, probe, robotLimits(), kStep, {2, 0.04, 0.5}).empty());
+}
+
+TEST(NarrowSearch, ArcsAreWithinTheLimitsToTheLastBit) {
+  const World world(10, 10, false);
+  const LocalMap map = seenMap(world);
+  const std::vector<TrackedObject> tracks;
+  const ObstacleScan scan;
+  TrajectoryValidator validator(robotFootprint(), robotLimits(), 1.5, 0.1);
+  validator.observe({map, scan, {}, tracks});
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> length(0.05, 3.0), curvature(-2.0, 2.0);
+  for (int i = 0; i < 300; ++i) {
+    const TrajectoryPoint start{1.0, {5.0, 5.0, 0.3}, {}};
+    const double way = (i % 2 ? 1.0 : -1.0) * length(random), bend = i % 3 ? curvature(random) : 0.0;
+    const SampledTrajectory arc(driveArc(start, bend, way, 0.5, robotLimits(), kStep));
+    const Verdict verdict = validator.check(arc, start, {0.02, 0.02, 0.2});
+    EXPECT_EQ(verdict.flaw, Flaw::kNone) << way << " m, curvature " << bend << " at " << verdict.time;
+    EXPECT_NEAR(arc.length(), std::abs(way), 0.01);
+  }
+}
+
+TEST(CostToGo, IsNeverMoreThanTheWay) {
+  World world(10, 10, false);
+  world.fill(4.0, 0.0, 4.2, 8.0, true);  // a wall with a way round its upper end
+  const Surroundings surroundings(seenMap(world), {}, {}, {});
+  const CostToGo guide(surroundings, {6.0, 2.0}, 0.2, 20.0);
+  const double round = std::hypot(2.0, 6.2) + std::hypot(2.0, 6.2);
+  EXPECT_LT(guide.at({2.0, 2.0}), round + 0.5);
+  EXPECT_GT(guide.at({2.0, 2.0}), 0.85 * round);
+  EXPECT_LT(guide.at({7.0, 2.0}), 1.0);
+  EXPECT_TRUE(std::isinf(guide.at({4.1, 2.0})));
+  EXPECT_TRUE(std::isinf(guide.at({50.0, 2.0})));
+  EXPECT_TRUE(std::isinf(CostToGo(surroundings, {6.0, 2.0}, 0.2, 3.0).at({2.0, 2.0})));
+  EXPECT_TRUE(std::isinf(CostToGo(surroundings, {60.0, 2.0}, 0.2, 3.0).at({2.0, 2.0})));
 }
 
 TEST(ProgressWatch, CountsTimeInOnePlace) {

@@ -75,6 +75,23 @@ int Result::reachedCount() const {
   return static_cast<int>(std::count_if(robots.begin(), robots.end(), [](const RobotResult& r) { return r.reached; }));
 }
 
+namespace {
+
+IncidentResult incidentResult(const Scenario& scenario, const Incident& incident) {
+  IncidentResult result;
+  result.time = incident.time;
+  result.kind = incident.touched                        ? "touched"
+                : incident.kind == ContactKind::kStatic ? "static"
+                : incident.kind == ContactKind::kRobot  ? "robot"
+                                                        : "moving";
+  result.robot = scenario.robots[incident.robot].name;
+  if (incident.kind == ContactKind::kRobot) result.other = scenario.robots[incident.other].name;
+  result.position = incident.position;
+  return result;
+}
+
+}  // namespace
+
 Result resultOf(const FleetRunner& runner, const std::string& variant, double wall) {
   const Simulation& simulation = runner.simulation();
   const Referee& referee = simulation.referee();
@@ -88,6 +105,9 @@ Result resultOf(const FleetRunner& runner, const std::string& variant, double wa
   result.moving_collisions = referee.collisions(ContactKind::kMoving);
   result.touched = referee.touched();
   for (std::size_t i = 0; i < simulation.scenario().robots.size(); ++i) result.robots.push_back(robotResult(runner, i));
+  for (const Incident& incident : referee.incidents()) {
+    result.incidents.push_back(incidentResult(simulation.scenario(), incident));
+  }
   using Robot = const RobotResult&;
   result.mean_time = meanOver(result.robots, [](Robot r) { return r.time; });
   result.mean_length = meanOver(result.robots, [](Robot r) { return std::optional<double>(r.length); });

@@ -60,6 +60,17 @@ void writeRelativeLocalization(JsonWriter& json, const Result& result) {
   json.endObject();
 }
 
+void writeIncident(JsonWriter& json, const IncidentResult& incident) {
+  json.beginObject();
+  json.number("time", incident.time);
+  json.text("kind", incident.kind);
+  json.text("robot", incident.robot);
+  if (!incident.other.empty()) json.text("other", incident.other);
+  json.number("x", incident.position.x());
+  json.number("y", incident.position.y());
+  json.endObject();
+}
+
 void writeTiming(JsonWriter& json, const Result& result) {
   json.beginObject("timing_ms");
   for (std::size_t stage = 0; stage < kStageNames.size(); ++stage) {
@@ -97,6 +108,9 @@ std::string toJson(const Result& result) {
   json.number("mean_regret", result.mean_regret);
   json.beginList("robots");
   for (const RobotResult& robot : result.robots) writeRobot(json, robot);
+  json.endList();
+  json.beginList("incidents");
+  for (const IncidentResult& incident : result.incidents) writeIncident(json, incident);
   json.endList();
   writeRadio(json, result);
   writeRelativeLocalization(json, result);

@@ -124,8 +124,8 @@ TEST(ResultTest, theFileHasAllKeysAndNullsWhereThereIsNoValue) {
   scenario.robots[0].goal = {9.5, 2.0};
   const Result result = run(scenario, world);
   const YAML::Node json = YAML::Load(toJson(result));
-  EXPECT_EQ(keysOf(json), std::set<std::string>({"scenario", "seed", "variant", "success", "collisions", "touched", "mean_time",
-                                                 "mean_length", "path_optimality", "mean_regret", "robots", "radio",
+  EXPECT_EQ(keysOf(json), std::set<std::string>({"scenario", "seed", "variant", "success", "collisions", "touched", "incidents",
+                                                 "mean_time", "mean_length", "path_optimality", "mean_regret", "robots", "radio",
                                                  "relative_localization", "timing_ms", "simulated", "wall"}));
   EXPECT_EQ(keysOf(json["collisions"]), std::set<std::string>({"static", "robot", "moving"}));
   EXPECT_EQ(keysOf(json["robots"][0]),

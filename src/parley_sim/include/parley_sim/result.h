@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -31,6 +32,15 @@ struct StageTiming {
   std::optional<double> p50, p99;  // [ms]
 };
 
+/// When and where a collision or a touch began.
+struct IncidentResult {
+  double time = 0.0;                                   // [s]
+  std::string kind;                                    // static, robot, moving or touched
+  std::string robot;                                   // name
+  std::string other;                                   // name of the other robot, if it is one
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  // [m] of the robot, world frame
+};
+
 struct Result {
   std::string scenario;
   std::uint64_t seed = 0;
@@ -39,6 +49,7 @@ struct Result {
   int static_collisions = 0, robot_collisions = 0, moving_collisions = 0, touched = 0;
   std::optional<double> mean_time, mean_length, path_optimality, mean_regret;  // over robots that reached
   std::vector<RobotResult> robots;
+  std::vector<IncidentResult> incidents;
   double bytes_per_second_per_robot = 0.0;
   bool nothing_sent = true;
   std::optional<double> delivered;  // [-]
