@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "emergency_stop.h"
 #include "local_goal.h"
 
 namespace parley {
@@ -71,7 +72,7 @@ PlanResult Planner::Pipeline::plan(const PlanRequest& request) {
     return keep(PlanCode::kArrived, "at the goal");
   }
   if (!request.route.exists()) {
-    return valid ? keep(PlanCode::kNoRoute, "no route") : brake(start, PlanCode::kNoRoute, "no route");
+    return valid ? keep(PlanCode::kNoRoute, "no route") : brake(request, start, PlanCode::kNoRoute, "no route");
   }
   if (valid && (mayKeep(request) || endsAtGoal(request))) return keep(PlanCode::kDriving, "");
   return replan(request, start, valid);
@@ -142,7 +143,7 @@ PlanResult Planner::Pipeline::replan(const PlanRequest& request, const Trajector
   if (proposal) return commit(*proposal);
   const std::string why = somethingMoved(request) ? "blocked by something that moved" : "blocked";
   if (committed_valid) return keep(stands(start.twist) ? PlanCode::kBlocked : PlanCode::kDriving, why);
-  return brake(start, PlanCode::kBlocked, why);
+  return brake(request, start, PlanCode::kBlocked, why);
 }
 
 std::optional<Proposal> Planner::Pipeline::bestProposal(const PlanRequest& request, const TrajectoryPoint& start) {
@@ -198,11 +199,12 @@ PlanResult Planner::Pipeline::commit(const Proposal& proposal) {
   return result;
 }
 
-PlanResult Planner::Pipeline::brake(const TrajectoryPoint& start, PlanCode code, const std::string& why) {
+PlanResult Planner::Pipeline::brake(const PlanRequest& request, const TrajectoryPoint& start, PlanCode code,
+                                    const std::string& why) {
   busy_until_ = -1e9;
   PlanResult result = keep(code, why);
   result.keep_committed = false;
-  result.trajectory = brakingTrajectory(start, limits_, options_.time_step);
+  result.trajectory = safestStop(validator_, request.committed, start, limits_, options_.time_step);
   return result;
 }
 

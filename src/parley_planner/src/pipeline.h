@@ -40,7 +40,7 @@ class Planner::Pipeline {
   std::optional<Proposal> bestProposal(const PlanRequest& request, const TrajectoryPoint& start);
   std::optional<Proposal> attempt(const Attempt& how, const PlanRequest& request, const TrajectoryPoint& start) const;
   PlanResult commit(const Proposal& proposal);
-  PlanResult brake(const TrajectoryPoint& start, PlanCode code, const std::string& why);
+  PlanResult brake(const PlanRequest& request, const TrajectoryPoint& start, PlanCode code, const std::string& why);
   PlanResult keep(PlanCode code, const std::string& why) const;
   bool somethingMoved(const PlanRequest& request) const;
 
