@@ -19,8 +19,13 @@ constexpr double kVisibleMargin = 0.1;  // [m] a ray must pass a place by this m
 constexpr double kWallBehind = 0.3;     // [m] behind the robot's middle nothing comes past it
 constexpr double kWallHalfWidth = 1.2;  // [m]
 constexpr double kLeaving = 0.3;        // [m/s]
-constexpr int kNewTrack = 4;            // scans before a thing's velocity is believed
-constexpr double kTrackRim = 0.5;       // [m] its own returns close the cells round a thing off up to here
+constexpr double kNever = 1e18;         // [s]
+constexpr double kFreshReach = 0.6;     // [m] round new returns, where ways may be wider than they look
+constexpr double kJump = 0.2;           // [m] of range between neighbours: one thing ends and another begins
+constexpr std::size_t kLeastReturns = 3;
+constexpr double kFreshShare = 0.25;  // [-] of a robot's returns: the front of one that drives is always new
+constexpr int kNewTrack = 4;          // scans before a thing's velocity is believed
+constexpr double kTrackRim = 0.5;     // [m] its own returns close the cells round a thing off up to here
 
 int cost(double metres) { return static_cast<int>(std::lround(metres / kUnit)); }
 
@@ -31,27 +36,27 @@ SightLaw::SightLaw(const SightLawOptions& options, const MotionLimits& limits) :
 void SightLaw::reset() {
   possible_.clear();
   gaps_.clear();
+  dates_.clear();
   updated_at_ = -1e9;
 }
 
-SightLaw::Mask SightLaw::carriedOver(const GridFrame& frame) const {
-  Mask mask(static_cast<std::size_t>(frame.width * frame.height), 1);
-  if (possible_.empty()) return mask;
+template <class Value>
+std::vector<Value> SightLaw::carriedOver(const std::vector<Value>& grid, const GridFrame& frame, Value fresh) const {
+  std::vector<Value> carried(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height), fresh);
+  if (grid.empty()) return carried;
   const int dx = static_cast<int>(std::lround((frame.origin.x() - frame_.origin.x()) / kCell));
   const int dy = static_cast<int>(std::lround((frame.origin.y() - frame_.origin.y()) / kCell));
   for (int y = 0; y < frame.height; ++y) {
     for (int x = 0; x < frame.width; ++x) {
       const Eigen::Vector2i before(x + dx, y + dy);
-      if (frame_.contains(before)) {
-        mask[static_cast<std::size_t>(frame.indexOf({x, y}))] = possible_[static_cast<std::size_t>(frame_.indexOf(before))];
-      }
+      if (!frame_.contains(before)) continue;
+      carried[static_cast<std::size_t>(frame.indexOf({x, y}))] = grid[static_cast<std::size_t>(frame_.indexOf(before))];
     }
   }
-  return mask;
+  return carried;
 }
 
-SightLaw::Mask SightLaw::hidden(const ObstacleScan& scan, const Pose2& T_odom_scan) const {
-  // A robot whose disc covers a place that is seen through is not there.
+SightLaw::Mask SightLaw::visible(const ObstacleScan& scan, const Pose2& T_odom_scan) const {
   Mask visible(possible_.size(), 0);
   const Pose2 T_scan_odom = T_odom_scan.inverse();
   const double c = std::cos(T_scan_odom.yaw), s = std::sin(T_scan_odom.yaw);
@@ -69,14 +74,58 @@ SightLaw::Mask SightLaw::hidden(const ObstacleScan& scan, const Pose2& T_odom_sc
       visible[static_cast<std::size_t>(i)] = reach > 0.0 && distance < reach * reach;  // NaN sees nothing
     }
   }
+  return visible;
+}
+
+SightLaw::Mask SightLaw::hidden(const Mask& visible) const {
   const int radius = static_cast<int>(std::lround(options_.intruder_radius / kCell));
   const cv::Mat disc = cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1});
-  const cv::Mat seen(frame_.height, frame_.width, CV_8UC1, visible.data());
+  const cv::Mat seen(frame_.height, frame_.width, CV_8UC1, const_cast<std::uint8_t*>(visible.data()));
   Mask grown(visible.size());
   cv::Mat result(frame_.height, frame_.width, CV_8UC1, grown.data());
   cv::dilate(seen, result, disc);
   std::transform(grown.begin(), grown.end(), grown.begin(), [](std::uint8_t v) { return static_cast<std::uint8_t>(!v); });
   return grown;
+}
+
+void SightLaw::dateReturns(const ObstacleScan& scan, const Pose2& T_odom_scan, const Mask& visible, double now) {
+  for (std::size_t i = 0; i < dates_.size(); ++i) {
+    if (visible[i]) dates_[i] = kNever;
+  }
+  for (std::size_t bin = 0; bin < scan.binCount(); ++bin) {
+    if (!std::isfinite(scan.ranges[bin])) continue;
+    const Eigen::Vector2i cell = frame_.cellOf(T_odom_scan * scan.pointAt(bin, static_cast<double>(scan.ranges[bin])));
+    if (!frame_.contains(cell)) continue;
+    double& date = dates_[static_cast<std::size_t>(frame_.indexOf(cell))];
+    date = std::min(date, now);
+  }
+}
+
+std::vector<float> SightLaw::roomsOf(const Surroundings& surroundings, double now) const {
+  const int w = frame_.width, h = frame_.height;
+  cv::Mat1d dates(h, w, const_cast<double*>(dates_.data())), oldest;
+  cv::erode(dates, oldest, cv::Mat());  // of a cell and its neighbours: noise scatters returns over two
+  cv::Mat1b free(h, w, 255), fresh(h, w, static_cast<std::uint8_t>(0));
+  std::vector<float> rooms(dates_.size());
+  for (int y = 0, i = 0; y < h; ++y) {
+    for (int x = 0; x < w; ++x, ++i) {
+      const double room = surroundings.obstacles().at(frame_.centerOf({x, y}));
+      rooms[static_cast<std::size_t>(i)] = static_cast<float>(room);
+      fresh(y, x) = dates(y, x) < kNever && oldest(y, x) > now - options_.proof_time;
+      if (room < 0.75 * kCell && !fresh(y, x)) free(y, x) = 0;
+    }
+  }
+  if (cv::countNonZero(fresh) == 0) return rooms;
+  cv::Mat1f without;
+  cv::distanceTransform(free, without, cv::DIST_L2, cv::DIST_MASK_3, CV_32F);
+  const int reach = static_cast<int>(std::lround(kFreshReach / kCell));
+  cv::dilate(fresh, fresh, cv::Mat(), {-1, -1}, reach);
+  for (int i = 0; i < w * h; ++i) {
+    if (fresh(i / w, i % w))
+      rooms[static_cast<std::size_t>(i)] =
+          std::max(rooms[static_cast<std::size_t>(i)], static_cast<float>(kCell) * without(i / w, i % w));
+  }
+  return rooms;
 }
 
 SightLaw::Mask SightLaw::middleOfWays(const std::vector<float>& rooms) const {
@@ -139,14 +188,13 @@ void SightLaw::observe(const Surroundings& surroundings, const ObstacleScan& sca
   frame.origin = (window.origin / kCell).array().round().matrix() * kCell;
   frame.width = static_cast<int>(window.size().x() / kCell);
   frame.height = static_cast<int>(window.size().y() / kCell);
-  possible_ = carriedOver(frame);
+  possible_ = carriedOver<std::uint8_t>(possible_, frame, 1);
+  dates_ = carriedOver(dates_, frame, kNever);
   frame_ = frame;
 
-  std::vector<float> rooms(possible_.size());
-  for (int i = 0; i < static_cast<int>(rooms.size()); ++i) {
-    rooms[static_cast<std::size_t>(i)] =
-        static_cast<float>(surroundings.obstacles().at(frame_.centerOf({i % frame_.width, i / frame_.width})));
-  }
+  const Mask seen_through = visible(scan, T_odom_scan);
+  dateReturns(scan, T_odom_scan, seen_through, now);
+  const std::vector<float> rooms = roomsOf(surroundings, now);
   const Mask middle = middleOfWays(rooms);
   Mask prices(possible_.size(), 0);
   for (std::size_t i = 0; i < prices.size(); ++i) {
@@ -160,7 +208,7 @@ void SightLaw::observe(const Surroundings& surroundings, const ObstacleScan& sca
   }
   const double elapsed = std::clamp(now - updated_at_, 0.0, 1.0);
   const Costs driven = spread(sources, prices, std::min(kFar, cost(options_.intruder_speed * elapsed)));
-  const Mask unseen = hidden(scan, T_odom_scan);
+  const Mask unseen = hidden(seen_through);
   // How far off it is from everywhere; nothing comes through the robot from behind.
   for (std::size_t i = 0; i < sources.size(); ++i) {
     possible_[i] = prices[i] && unseen[i] && driven[i] <= kFar;
@@ -179,8 +227,45 @@ void SightLaw::observe(const Surroundings& surroundings, const ObstacleScan& sca
     const bool may_come = track.has_moved && track.velocity.dot(towards) > -kLeaving;
     if (may_come || track.observations < kNewTrack) addIntruder(there, track.radius + kTrackRim, prices, sources);
   }
+  addFreshPieces(scan, T_odom_scan, now, prices, sources);
   gaps_ = spread(sources, prices, kFar);
   updated_at_ = now;
+}
+
+bool SightLaw::isFresh(const Eigen::Vector2d& p_odom, double now) const {
+  const Eigen::Vector2i cell = frame_.cellOf(p_odom);
+  double oldest = kNever;
+  for (int y = cell.y() - 1; y <= cell.y() + 1; ++y) {
+    for (int x = cell.x() - 1; x <= cell.x() + 1; ++x) {
+      if (frame_.contains({x, y})) oldest = std::min(oldest, dates_[static_cast<std::size_t>(frame_.indexOf({x, y}))]);
+    }
+  }
+  return oldest < kNever && oldest > now - options_.proof_time;
+}
+
+void SightLaw::addFreshPieces(const ObstacleScan& scan, const Pose2& T_odom_scan, double now, const Mask& prices,
+                              Costs& sources) const {
+  std::vector<Eigen::Vector2d> piece;
+  int fresh = 0;
+  double last = 0.0;
+  const auto finish = [&] {
+    const double chord = piece.empty() ? 0.0 : (piece.back() - piece.front()).norm();
+    if (piece.size() >= kLeastReturns && chord < options_.intruder_length &&
+        fresh > kFreshShare * static_cast<double>(piece.size())) {
+      addIntruder(0.5 * (piece.front() + piece.back()), 0.5 * chord + kTrackRim, prices, sources);
+    }
+    piece.clear();
+    fresh = 0;
+  };
+  for (std::size_t bin = 0; bin < scan.binCount(); ++bin) {
+    const double range = static_cast<double>(scan.ranges[bin]);
+    if (!std::isfinite(range) || std::abs(range - last) > kJump) finish();
+    last = range;
+    if (!std::isfinite(range)) continue;
+    piece.push_back(T_odom_scan * scan.pointAt(bin, range));
+    fresh += isFresh(piece.back(), now) ? 1 : 0;
+  }
+  finish();
 }
 
 void SightLaw::addIntruder(const Eigen::Vector2d& there, double reach, const Mask& prices, Costs& sources) const {

@@ -18,6 +18,8 @@ struct SightLawOptions {
   double contact_distance = 0.8;    // [m] between the middles of two robots that touch
   double least_speed = 0.3;         // [m/s] never slower: it would not help, and the robot must get on
   double look_ahead_time = 0.2;     // [s] until the next plan knows more
+  double intruder_length = 1.2;     // [m] longer things in one piece are no robots
+  double proof_time = 0.35;         // [s] what stays in its place for so long after first sight is no robot on its way
 };
 
 /// How fast one may drive so that a robot that comes out of hidden space and obeys the same law can still be avoided by both
@@ -43,19 +45,33 @@ class SightLaw {
  private:
   using Mask = std::vector<std::uint8_t>;
   using Costs = std::vector<int>;
-  Mask carriedOver(const GridFrame& frame) const;
+  /// A grid of the last window in the new one; `fresh` where it was outside.
+  template <class Value>
+  std::vector<Value> carriedOver(const std::vector<Value>& grid, const GridFrame& frame, Value fresh) const;
+  /// Dates the cells with returns; forgets those that are seen through.
+  void dateReturns(const ObstacleScan& scan, const Pose2& T_odom_scan, const Mask& visible, double now);
+  /// Distance [m] to the nearest obstacle that has been there for a while: what has just come into sight may be a robot.
+  std::vector<float> roomsOf(const Surroundings& surroundings, double now) const;
   /// Cells where a robot that keeps its distance from walls, or the middle where it cannot, would drive.
   Mask middleOfWays(const std::vector<float>& rooms) const;
-  Mask hidden(const ObstacleScan& scan, const Pose2& T_odom_scan) const;
+  Mask visible(const ObstacleScan& scan, const Pose2& T_odom_scan) const;
+  /// Where the middle of a robot may be as far as the newest scan goes: a robot whose disc covers a place that is seen
+  /// through is not there.
+  Mask hidden(const Mask& visible) const;
   /// Driving distance from the nearest source, in units of a tenth of a cell, through cells whose price is not zero.
   Costs spread(const Costs& sources, const Mask& prices, int most) const;
+  /// Whether what is in a cell has come into sight so lately that it may be a robot on its way.
+  bool isFresh(const Eigen::Vector2d& p_odom, double now) const;
+  /// Short pieces of the scan that have just come into sight, half hidden as they may be, as possible intruders.
+  void addFreshPieces(const ObstacleScan& scan, const Pose2& T_odom_scan, double now, const Mask& prices, Costs& sources) const;
   /// Something seen at `there` may drive off from all round it: lowers `sources` within `reach` [m].
   void addIntruder(const Eigen::Vector2d& there, double reach, const Mask& prices, Costs& sources) const;
 
   SightLawOptions options_;
   MotionLimits limits_;
   GridFrame frame_;
-  Mask possible_;  // cells where the middle of an unseen robot may be
+  Mask possible_;              // cells where the middle of an unseen robot may be
+  std::vector<double> dates_;  // [s] of the first return in a cell since it was last seen through; kNever if there is none
   Costs gaps_;
   double updated_at_ = -1e9;  // [s]
 };
