@@ -22,10 +22,8 @@ constexpr double kLeaving = 0.3;        // [m/s]
 constexpr double kNever = 1e18;         // [s]
 constexpr double kFreshReach = 0.6;     // [m] round new returns, where ways may be wider than they look
 constexpr double kJump = 0.2;           // [m] of range between neighbours: one thing ends and another begins
-constexpr std::size_t kLeastReturns = 3;
-constexpr double kFreshShare = 0.25;  // [-] of a robot's returns: the front of one that drives is always new
-constexpr int kNewTrack = 4;          // scans before a thing's velocity is believed
-constexpr double kTrackRim = 0.5;     // [m] its own returns close the cells round a thing off up to here
+constexpr int kNewTrack = 4;            // scans before a thing's velocity is believed
+constexpr double kTrackRim = 0.5;       // [m] its own returns close the cells round a thing off up to here
 
 int cost(double metres) { return static_cast<int>(std::lround(metres / kUnit)); }
 
@@ -35,6 +33,7 @@ SightLaw::SightLaw(const SightLawOptions& options, const MotionLimits& limits) :
 
 void SightLaw::reset() {
   possible_.clear();
+  lost_.clear();
   gaps_.clear();
   dates_.clear();
   updated_at_ = -1e9;
@@ -189,6 +188,7 @@ void SightLaw::observe(const Surroundings& surroundings, const ObstacleScan& sca
   frame.width = static_cast<int>(window.size().x() / kCell);
   frame.height = static_cast<int>(window.size().y() / kCell);
   possible_ = carriedOver<std::uint8_t>(possible_, frame, 1);
+  lost_ = carriedOver<std::uint8_t>(lost_, frame, 0);
   dates_ = carriedOver(dates_, frame, kNever);
   frame_ = frame;
 
@@ -201,18 +201,13 @@ void SightLaw::observe(const Surroundings& surroundings, const ObstacleScan& sca
     const double room = static_cast<double>(rooms[i]);
     if (room >= options_.intruder_radius - 0.5 * kCell) prices[i] = room < options_.intruder_clearance ? kSlowPrice : 1;
   }
-  // Where an unseen one can have driven since the last time.
+  const Mask unseen = hidden(seen_through);
+  possible_ = driven(possible_, prices, unseen, now - updated_at_);
+  followLost(tracks, prices, unseen, now);
+  // How far off it is from everywhere; nothing comes through the robot from behind.
   Costs sources(possible_.size(), 2 * kFar);
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    if (possible_[i] && prices[i]) sources[i] = 0;
-  }
-  const double elapsed = std::clamp(now - updated_at_, 0.0, 1.0);
-  const Costs driven = spread(sources, prices, std::min(kFar, cost(options_.intruder_speed * elapsed)));
-  const Mask unseen = hidden(seen_through);
-  // How far off it is from everywhere; nothing comes through the robot from behind.
-  for (std::size_t i = 0; i < sources.size(); ++i) {
-    possible_[i] = prices[i] && unseen[i] && driven[i] <= kFar;
-    sources[i] = possible_[i] && middle[i] ? 0 : 2 * kFar;
+    if ((possible_[i] && middle[i]) || lost_[i]) sources[i] = 0;
     const Eigen::Vector2i cell(static_cast<int>(i) % frame_.width, static_cast<int>(i) / frame_.width);
     const Eigen::Vector2d p_base = pose.inverse() * frame_.centerOf(cell);
     if (std::abs(p_base.y()) < kWallHalfWidth && p_base.x() < -kWallBehind && p_base.x() > -kWallBehind - 0.3) {
@@ -227,9 +222,44 @@ void SightLaw::observe(const Surroundings& surroundings, const ObstacleScan& sca
     const bool may_come = track.has_moved && track.velocity.dot(towards) > -kLeaving;
     if (may_come || track.observations < kNewTrack) addIntruder(there, track.radius + kTrackRim, prices, sources);
   }
-  addFreshPieces(scan, T_odom_scan, now, prices, sources);
+  for (const FreshPiece& piece : freshPieces(dated(scan, T_odom_scan, now), options_.intruder_length, kJump)) {
+    addIntruder(piece.middle, 0.5 * piece.chord + kTrackRim, prices, sources);
+  }
   gaps_ = spread(sources, prices, kFar);
   updated_at_ = now;
+}
+
+SightLaw::Mask SightLaw::driven(const Mask& from, const Mask& prices, const Mask& unseen, double elapsed) const {
+  Costs sources(from.size(), 2 * kFar);
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    if (from[i] && prices[i]) sources[i] = 0;
+  }
+  const int most = cost(options_.intruder_speed * std::clamp(elapsed, 0.0, 1.0));
+  const Costs reached = spread(sources, prices, std::min(kFar, most));
+  Mask result(from.size());
+  for (std::size_t i = 0; i < from.size(); ++i) result[i] = prices[i] && unseen[i] && reached[i] <= kFar;
+  return result;
+}
+
+void SightLaw::followLost(const std::vector<TrackedObject>& tracks, const Mask& prices, const Mask& unseen, double now) {
+  if (now > lost_until_) {
+    lost_.assign(lost_.size(), 0);
+  } else {
+    lost_ = driven(lost_, prices, unseen, now - updated_at_);
+  }
+  for (const TrackedObject& track : tracks) {
+    if (!track.has_moved) continue;
+    lost_until_ = now + options_.memory_time;
+    const Eigen::Vector2i middle = frame_.cellOf(track.position);
+    const int reach = static_cast<int>(std::ceil(track.radius / kCell));
+    for (int y = middle.y() - reach; y <= middle.y() + reach; ++y) {
+      for (int x = middle.x() - reach; x <= middle.x() + reach; ++x) {
+        if (!frame_.contains({x, y}) || (frame_.centerOf({x, y}) - track.position).norm() > track.radius) continue;
+        const auto cell = static_cast<std::size_t>(frame_.indexOf({x, y}));
+        lost_[cell] = prices[cell] && unseen[cell];
+      }
+    }
+  }
 }
 
 bool SightLaw::isFresh(const Eigen::Vector2d& p_odom, double now) const {
@@ -243,29 +273,15 @@ bool SightLaw::isFresh(const Eigen::Vector2d& p_odom, double now) const {
   return oldest < kNever && oldest > now - options_.proof_time;
 }
 
-void SightLaw::addFreshPieces(const ObstacleScan& scan, const Pose2& T_odom_scan, double now, const Mask& prices,
-                              Costs& sources) const {
-  std::vector<Eigen::Vector2d> piece;
-  int fresh = 0;
-  double last = 0.0;
-  const auto finish = [&] {
-    const double chord = piece.empty() ? 0.0 : (piece.back() - piece.front()).norm();
-    if (piece.size() >= kLeastReturns && chord < options_.intruder_length &&
-        fresh > kFreshShare * static_cast<double>(piece.size())) {
-      addIntruder(0.5 * (piece.front() + piece.back()), 0.5 * chord + kTrackRim, prices, sources);
-    }
-    piece.clear();
-    fresh = 0;
-  };
+std::vector<DatedReturn> SightLaw::dated(const ObstacleScan& scan, const Pose2& T_odom_scan, double now) const {
+  std::vector<DatedReturn> returns;
   for (std::size_t bin = 0; bin < scan.binCount(); ++bin) {
     const double range = static_cast<double>(scan.ranges[bin]);
-    if (!std::isfinite(range) || std::abs(range - last) > kJump) finish();
-    last = range;
     if (!std::isfinite(range)) continue;
-    piece.push_back(T_odom_scan * scan.pointAt(bin, range));
-    fresh += isFresh(piece.back(), now) ? 1 : 0;
+    const Eigen::Vector2d p_odom = T_odom_scan * scan.pointAt(bin, range);
+    returns.push_back({p_odom, range, isFresh(p_odom, now)});
   }
-  finish();
+  return returns;
 }
 
 void SightLaw::addIntruder(const Eigen::Vector2d& there, double reach, const Mask& prices, Costs& sources) const {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "fresh_pieces.h"
 #include "parley_geometry/motion.h"
 #include "reference_path.h"
 #include "surroundings.h"
@@ -19,6 +20,7 @@ struct SightLawOptions {
   double least_speed = 0.3;         // [m/s] never slower: it would not help, and the robot must get on
   double look_ahead_time = 0.2;     // [s] until the next plan knows more
   double intruder_length = 1.2;     // [m] longer things in one piece are no robots
+  double memory_time = 3.0;         // [s] for which a robot that got out of sight is looked for near walls too
   double proof_time = 0.35;         // [s] what stays in its place for so long after first sight is no robot on its way
 };
 
@@ -62,14 +64,19 @@ class SightLaw {
   Costs spread(const Costs& sources, const Mask& prices, int most) const;
   /// Whether what is in a cell has come into sight so lately that it may be a robot on its way.
   bool isFresh(const Eigen::Vector2d& p_odom, double now) const;
-  /// Short pieces of the scan that have just come into sight, half hidden as they may be, as possible intruders.
-  void addFreshPieces(const ObstacleScan& scan, const Pose2& T_odom_scan, double now, const Mask& prices, Costs& sources) const;
+  std::vector<DatedReturn> dated(const ObstacleScan& scan, const Pose2& T_odom_scan, double now) const;
+  /// How far those that may be in `from` can have driven since the last time, where they are not seen now.
+  Mask driven(const Mask& from, const Mask& prices, const Mask& unseen, double elapsed) const;
+  /// Keeps track of where robots that have been seen may be, out of sight.
+  void followLost(const std::vector<TrackedObject>& tracks, const Mask& prices, const Mask& unseen, double now);
   /// Something seen at `there` may drive off from all round it: lowers `sources` within `reach` [m].
   void addIntruder(const Eigen::Vector2d& there, double reach, const Mask& prices, Costs& sources) const;
 
   SightLawOptions options_;
   MotionLimits limits_;
   GridFrame frame_;
+  Mask lost_;                  // the same for robots that have been seen before they got out of sight
+  double lost_until_ = -1e9;   // [s] when nobody asks any more where they are
   Mask possible_;              // cells where the middle of an unseen robot may be
   std::vector<double> dates_;  // [s] of the first return in a cell since it was last seen through; kNever if there is none
   Costs gaps_;

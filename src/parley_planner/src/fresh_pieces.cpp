@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fresh_pieces.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "parley_geometry/polygon.h"
+
+namespace parley {
+
+namespace {
+
+constexpr std::size_t kLeastReturns = 3;
+constexpr std::size_t kWallReturns = 12;  // known ones that tell where a wall goes, at most
+constexpr double kLeastWall = 0.12;       // [m] their chord, at least
+constexpr double kWallThickness = 0.07;   // [m] returns so far off a line are on it: noise
+constexpr double kWallDirection = 0.15;   // [-] and so much more a metre, for what the short line does not tell
+
+using Returns = std::vector<DatedReturn>;
+
+/// Whether returns [begin, end) lie on the line from `from` through `to`.
+bool continues(const Returns& returns, std::size_t begin, std::size_t end, const Eigen::Vector2d& from,
+               const Eigen::Vector2d& to) {
+  const double length = (to - from).norm();
+  if (length < kLeastWall) return false;
+  const Eigen::Vector2d along = (to - from) / length;
+  return std::all_of(returns.begin() + static_cast<std::ptrdiff_t>(begin), returns.begin() + static_cast<std::ptrdiff_t>(end),
+                     [&](const DatedReturn& r) {
+                       const Eigen::Vector2d offset = r.point - to;
+                       return std::abs(cross(along, offset)) < kWallThickness + kWallDirection * offset.norm();
+                     });
+}
+
+/// The last known return of the same thing before `i` (after it with step -1), at most kWallReturns away; `i` if none.
+std::size_t knownUntil(const Returns& returns, std::size_t i, bool forward, double jump) {
+  std::size_t k = i;
+  for (std::size_t n = 0; n < kWallReturns; ++n) {
+    if (forward ? k + 1 >= returns.size() : k == 0) break;
+    const std::size_t next = forward ? k + 1 : k - 1;
+    if (returns[next].fresh || std::abs(returns[next].range - returns[k].range) > jump) break;
+    k = next;
+  }
+  return k;
+}
+
+bool isRestOfWall(const Returns& returns, std::size_t begin, std::size_t end, double jump) {
+  const std::size_t before = knownUntil(returns, begin, false, jump), after = knownUntil(returns, end - 1, true, jump);
+  return (before + 1 < begin && continues(returns, begin, end, returns[before].point, returns[begin - 1].point)) ||
+         (after > end && continues(returns, begin, end, returns[after].point, returns[end].point));
+}
+
+}  // namespace
+
+std::vector<FreshPiece> freshPieces(const std::vector<DatedReturn>& returns, double longest, double jump) {
+  std::vector<FreshPiece> pieces;
+  for (std::size_t begin = 0; begin < returns.size();) {
+    std::size_t end = begin + 1;
+    if (returns[begin].fresh) {
+      while (end < returns.size() && returns[end].fresh && std::abs(returns[end].range - returns[end - 1].range) <= jump) ++end;
+      const Eigen::Vector2d &first = returns[begin].point, &last = returns[end - 1].point;
+      const double chord = (last - first).norm();
+      if (end - begin >= kLeastReturns && chord < longest && !isRestOfWall(returns, begin, end, jump)) {
+        pieces.push_back({0.5 * (first + last), chord});
+      }
+    }
+    begin = end;
+  }
+  return pieces;
+}
+
+}  // namespace parley

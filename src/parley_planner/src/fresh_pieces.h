@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace parley {
+
+/// A return of the scan, and whether it has come into sight only lately.
+struct DatedReturn {
+  Eigen::Vector2d point = Eigen::Vector2d::Zero();  // [m]
+  double range = 0.0;                               // [m]
+  bool fresh = false;
+};
+
+/// What may be a robot, or as much of one as can be seen.
+struct FreshPiece {
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();  // [m]
+  double chord = 0.0;                                // [m]
+};
+
+/// Runs of fresh returns no longer than `longest` [m], but for those that go on straight where known ones end: these are the
+/// rest of a wall. `returns` by bearing; ranges further apart than `jump` [m] belong to two things.
+std::vector<FreshPiece> freshPieces(const std::vector<DatedReturn>& returns, double longest, double jump);
+
+}  // namespace parley
