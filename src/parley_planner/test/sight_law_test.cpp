@@ -93,6 +93,44 @@ TEST_F(SightLawTest, ApproachingTracksCount) {
   EXPECT_GT(speedAt({3.0, 5.0, 0.0}), approached + 0.2);
 }
 
+TEST_F(SightLawTest, WhatComesIntoSightCountsUntilItHasStood) {
+  World world(10, 10, true);
+  world.fill(0, 3, 10, 7, false);
+  const Pose2 pose{3.0, 5.0, 0.0};
+  for (int k = 0; k < 10; ++k) look(world, pose, 0.1 * k);
+  EXPECT_GT(speedAt(pose), 1.9);
+  World with_box = world;
+  with_box.fill(4.8, 4.7, 5.2, 5.3, true);
+  look(with_box, pose, 1.0);
+  EXPECT_LT(speedAt(pose), 1.5);
+  for (int k = 11; k < 18; ++k) look(with_box, pose, 0.1 * k);
+  EXPECT_GT(speedAt(pose), 1.6);  // it stands; what it hides is all that is left
+}
+
+TEST_F(SightLawTest, ARobotThatGotOutOfSightIsNotForgotten) {
+  World world(10, 10, true);
+  world.fill(0, 1, 10, 9, false);
+  world.fill(4.4, 4.4, 5.2, 5.6, true);  // a box to hide behind
+  const Pose2 pose{3.0, 5.0, 0.0};
+  TrackedObject track;
+  track.position = {5.9, 5.0};
+  track.radius = 0.3;
+  track.moving = track.has_moved = true;
+  track.observations = 9;
+  const auto forget = [&] {  // all is seen free from all sides, so that nothing can be anywhere
+    law_.reset();
+    const World empty(10, 10, false);
+    for (const double y : {1.5, 5.0, 8.5}) look(empty, {5.0, y, 0.0}, 0.0);
+  };
+  forget();
+  for (int k = 1; k < 8; ++k) look(world, pose, 0.1 * k);
+  const double alone = speedAt(pose);
+  forget();
+  look(world, pose, 0.1, {track});
+  for (int k = 2; k < 8; ++k) look(world, pose, 0.1 * k);
+  EXPECT_LT(speedAt(pose), alone - 0.2);
+}
+
 }  // namespace
 }  // namespace parley
 

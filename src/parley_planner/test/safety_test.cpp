@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is done about the unexpected: emergency_stop and fresh_pieces.
+#include <gtest/gtest.h>
+
+#include "emergency_stop.h"
+#include "fresh_pieces.h"
+#include "scenes.h"
+
+namespace parley {
+namespace {
+
+constexpr double kStep = 0.05;  // [s]
+
+/// Driving at `speed` on a circle, then straight.
+SampledTrajectory bend(const TrajectoryPoint& from, double turned, double speed) {
+  std::vector<TrajectoryPoint> points{from};
+  points.back().twist = {speed, from.twist.turn_rate};
+  while (points.size() < 60) {
+    TrajectoryPoint p = points.back();
+    p.time += kStep;
+    p.twist.turn_rate = std::abs(p.pose.yaw - from.pose.yaw) < turned ? from.twist.turn_rate : 0.0;
+    p.pose = integrateTwist(points.back().pose, speed, p.twist.turn_rate, kStep);
+    points.push_back(p);
+  }
+  return SampledTrajectory(std::move(points));
+}
+
+std::vector<DatedReturn> wall(double from, double to, double y, double fresh_from, double fresh_to) {
+  std::vector<DatedReturn> returns;
+  for (double x = from; x < to; x += 0.03) {
+    const Eigen::Vector2d p(x, y + (returns.size() % 2 ? 0.02 : -0.02));
+    returns.push_back({p, p.norm(), x >= fresh_from && x < fresh_to});
+  }
+  return returns;
+}
+
+}  // namespace
+
+TEST(BrakingAlong, StaysOnThePath) {
+  const TrajectoryPoint start{2.0, {5.0, 5.0, 0.4}, {1.2, 0.9}};
+  const SampledTrajectory path = bend(start, 0.5, 1.2);
+  const SampledTrajectory stop = brakingAlong(path, start, robotLimits(), kStep);
+  EXPECT_EQ(motionFlaw(stop.points(), robotLimits()), "");
+  EXPECT_NEAR(stop.length(), 1.2 * 1.2 / (2.0 * robotLimits().acceleration), 0.05);
+  for (const TrajectoryPoint& p : stop.points()) {
+    double nearest = 1e9;
+    for (const TrajectoryPoint& q : path.points()) nearest = std::min(nearest, (p.pose.position() - q.pose.position()).norm());
+    EXPECT_LT(nearest, 0.06);
+  }
+}
+
+TEST(SafestStop, TakesTheWayThatIsFree) {
+  const TrajectoryPoint start{2.0, {4.0, 5.0, 0.0}, {1.6, 0.0}};
+  const std::vector<TrackedObject> tracks;
+  const SampledTrajectory straight = bend(start, 0.0, 1.6);
+  TrajectoryPoint turning = start;
+  turning.twist.turn_rate = 1.4;
+  const SampledTrajectory left = bend(turning, 2.0, 1.6);
+  struct Case {
+    const SampledTrajectory& committed;
+    TrajectoryPoint from;
+    SampledTrajectory shut;  // braking that ends with a post under the left front corner
+  };
+  for (const Case& c : {Case{straight, turning, brakingTrajectory(turning, robotLimits(), kStep)},
+                        Case{left, start, brakingAlong(left, start, robotLimits(), kStep)}}) {
+    World world(10, 10, false);
+    const Eigen::Vector2d post = c.shut.points().back().pose * Eigen::Vector2d(0.37, 0.17);
+    world.fill(post.x() - 0.03, post.y() - 0.03, post.x() + 0.03, post.y() + 0.03, true);
+    ASSERT_TRUE(world.touches(robotFootprint(), c.shut.points().back().pose));
+    const LocalMap map = seenMap(world);
+    const ObstacleScan scan;
+    TrajectoryValidator validator(robotFootprint(), robotLimits(), 1.5, 0.1);
+    validator.observe({map, scan, {}, tracks});
+    const SampledTrajectory stop = safestStop(validator, c.committed, c.from, robotLimits(), kStep);
+    EXPECT_EQ(motionFlaw(stop.points(), robotLimits()), "");
+    for (const TrajectoryPoint& p : stop.points()) EXPECT_FALSE(world.touches(robotFootprint(), p.pose)) << p.time;
+  }
+}
+
+TEST(SafestStop, IsSlowestWhereItTouches) {
+  const TrajectoryPoint start{0.0, {4.0, 5.0, 0.0}, {2.0, 0.0}};
+  World world(10, 10, false);
+  world.fill(5.0, 0.0, 5.2, 10.0, true);  // nothing helps
+  const LocalMap map = seenMap(world);
+  const ObstacleScan scan;
+  const std::vector<TrackedObject> tracks;
+  TrajectoryValidator validator(robotFootprint(), robotLimits(), 1.5, 0.1);
+  validator.observe({map, scan, {}, tracks});
+  const SampledTrajectory stop = safestStop(validator, {}, start, robotLimits(), kStep);
+  EXPECT_NEAR(stop.duration(), 2.0 / robotLimits().acceleration, 2.0 * kStep);
+}
+
+TEST(FreshPieces, AThingByItselfIsOne) {
+  const std::vector<FreshPiece> pieces = freshPieces(wall(-0.3, 0.3, 2.0, -1.0, 1.0), 1.2, 0.2);
+  ASSERT_EQ(pieces.size(), 1U);
+  EXPECT_LT((pieces[0].middle - Eigen::Vector2d(0.0, 2.0)).norm(), 0.05);
+  EXPECT_NEAR(pieces[0].chord, 0.58, 0.06);
+}
+
+TEST(FreshPieces, OldThingsAndWallsAreNone) {
+  EXPECT_TRUE(freshPieces(wall(-0.3, 0.3, 2.0, 5.0, 5.0), 1.2, 0.2).empty());     // known
+  EXPECT_TRUE(freshPieces(wall(-1.0, 1.0, 2.0, -5.0, 5.0), 1.2, 0.2).empty());    // too long
+  EXPECT_TRUE(freshPieces(wall(-1.0, 1.0, 2.0, 0.5, 5.0), 1.2, 0.2).empty());     // goes on after
+  EXPECT_TRUE(freshPieces(wall(-1.0, 1.0, 2.0, -5.0, -0.5), 1.2, 0.2).empty());   // and before
+  EXPECT_TRUE(freshPieces(wall(-0.03, 0.03, 2.0, -1.0, 1.0), 1.2, 0.2).empty());  // two returns
+  EXPECT_TRUE(freshPieces({}, 1.2, 0.2).empty());
+}
+
+TEST(FreshPieces, AThingBesideAWallIsOne) {
+  std::vector<DatedReturn> returns = wall(-1.0, 0.0, 2.0, 5.0, 5.0);
+  for (const DatedReturn& r : wall(0.0, 0.4, 1.4, -5.0, 5.0)) returns.push_back(r);  // half a metre nearer
+  EXPECT_EQ(freshPieces(returns, 1.2, 0.2).size(), 1U);
+  returns = wall(-1.0, 0.0, 2.0, 5.0, 5.0);
+  for (double y = 2.0; y > 1.5; y -= 0.03) {  // touching it, at a right angle
+    returns.push_back({{0.02, y}, y, true});
+  }
+  EXPECT_EQ(freshPieces(returns, 1.2, 0.2).size(), 1U);
+}
+
+}  // namespace parley
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
