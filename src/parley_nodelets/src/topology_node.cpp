@@ -94,7 +94,7 @@ void TopologyNode::publishLocalMap(const Pose2& T_odom_base) {
 
 void TopologyNode::publishRoute(const Pose2& T_odom_base, double now) {
   if (!goal_) return;
-  route_ = topology_->route(T_odom_base, *goal_, now);
+  route_ = topology_->route(T_odom_base, *goal_);
   const RouteToGoal route{route_, *goal_};
   route_publisher_.publish(boost::make_shared<parley_msgs::Route>(toMessage(route, *newest_scan_, config_.node.frames.odom)));
 }

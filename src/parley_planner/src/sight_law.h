@@ -14,10 +14,10 @@ namespace parley {
 struct SightLawOptions {
   double intruder_speed = 2.0;      // [m/s] of what nobody has seen
   double intruder_radius = 0.2;     // [m] of the smallest disc in one
-  double intruder_clearance = 0.4;  // [m] of its middle from walls: it too keeps away from blind corners
+  double intruder_clearance = 0.5;  // [m] of its middle from walls: it too keeps away from blind corners
   double reaction_time = 0.2;       // [s] from first sight to braking, either robot
-  double contact_distance = 0.8;    // [m] between the middles of two robots that touch
-  double least_speed = 0.3;         // [m/s] never slower: it would not help, and the robot must get on
+  double contact_distance = 0.7;    // [m] between the middles of two robots that touch
+  double least_speed = 0.4;         // [m/s] never slower: it would not help, and the robot must get on
   double look_ahead_time = 0.2;     // [s] until the next plan knows more
   double intruder_length = 1.2;     // [m] longer things in one piece are no robots
   double memory_time = 3.0;         // [s] for which a robot that got out of sight is looked for near walls too

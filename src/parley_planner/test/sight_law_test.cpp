@@ -17,16 +17,17 @@ class SightLawTest : public testing::Test {
     law_.observe(surroundings, scan, pose, tracks, pose, now);
   }
   double speedAt(const Pose2& pose) const { return law_.speedFor(law_.gapAt(pose.position())); }
-  SightLaw law_{{}, robotLimits()};
+  SightLawOptions options_;
+  SightLaw law_{options_, robotLimits()};
 };
 
 TEST_F(SightLawTest, BothCanStop) {
   for (double gap = 0.9; gap < 5.0; gap += 0.1) {
-    const double v = law_.speedFor(gap), t = 0.2, a = 2.0;
-    if (v < 0.31) continue;
-    EXPECT_NEAR(2.0 * (v * t + v * v / (2.0 * a)) + 0.8, gap, 1e-6);
+    const double v = law_.speedFor(gap), t = options_.reaction_time, a = robotLimits().acceleration;
+    if (v < options_.least_speed + 0.01) continue;
+    EXPECT_NEAR(2.0 * (v * t + v * v / (2.0 * a)) + options_.contact_distance, gap, 1e-6);
   }
-  EXPECT_NEAR(law_.speedFor(0.0), 0.3, 1e-9);
+  EXPECT_NEAR(law_.speedFor(0.0), options_.least_speed, 1e-9);
 }
 
 TEST_F(SightLawTest, StraightCorridorIsFast) {

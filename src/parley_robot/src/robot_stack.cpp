@@ -117,7 +117,7 @@ void RobotStack::updateTopology(double now, StageTimes& times) {
   }
   times.topology = timed([&] { topology_.update(); });
   if (!goal_.goal()) return;
-  times.route = timed([&] { route_ = topology_.route(odometry_.latest().pose, *goal_.goal(), now); });
+  times.route = timed([&] { route_ = topology_.route(odometry_.latest().pose, *goal_.goal()); });
 }
 
 void RobotStack::planMotion(double now, StageTimes& times) {

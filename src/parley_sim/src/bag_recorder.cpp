@@ -38,7 +38,7 @@ class BagRecorder {
     const ros::Time now(readings.clock);
     if (!started_) {
       writeLatched("/tf_static", now, mountMessage(spec.lidar, readings.clock));
-      writeLatched("/goal", now, goalMessage(spec.goalInOdom(), readings.clock));
+      writeLatched("/move_base_simple/goal", now, goalMessage(spec.goalInOdom(), readings.clock));
       started_ = true;
     }
     rosgraph_msgs::Clock clock;

@@ -57,7 +57,7 @@ TEST_F(RunTest, writesAPictureAndABag) {
   EXPECT_FALSE(cv::imread(directory_.file("p.png")).empty());
   const std::string bag = contentsOf(directory_.file("r.bag"));
   EXPECT_EQ(bag.rfind("#ROSBAG V2.0", 0), 0u);
-  for (const std::string topic : {"/points", "/odom", "/tf", "/goal", "/clock"})
+  for (const std::string topic : {"/points", "/odom", "/tf", "/move_base_simple/goal", "/clock"})
     EXPECT_NE(bag.find(topic), std::string::npos) << topic;
 }
 

@@ -120,7 +120,7 @@ void route(benchmark::State& state, Explored& e) {
     result = e.topology.update();
     if (seconds.size() % 50 == 49) goal = e.clearPlace();
     const double start = now();
-    benchmark::DoNotOptimize(e.topology.route(pose, goal, 0.0));
+    benchmark::DoNotOptimize(e.topology.route(pose, goal));
     seconds.push_back(now() - start);
     state.SetIterationTime(seconds.back());
   }

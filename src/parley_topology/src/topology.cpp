@@ -96,7 +96,7 @@ TopologyResult Topology::update() {
   return result;
 }
 
-Route Topology::route(const Pose2& T_odom_base, const Eigen::Vector2d& goal_odom, double /*now*/) {
+Route Topology::route(const Pose2& T_odom_base, const Eigen::Vector2d& goal_odom) {
   Parts& p = *parts_;
   if (!T_odom_base.isFinite() || !goal_odom.allFinite()) {
     ++p.refused;

@@ -76,7 +76,7 @@ TEST(Graph, isAFunctionOfTheMapAndNotOfHowItWasLearnt) {
       step_by_step.integrate(scan, pose);
       at_once.integrate(scan, pose);
       if (++n % 2 == 0) step_by_step.update();
-      if (n % 10 == 0) step_by_step.route(pose, {10, 10}, 0.0);  // measures edges
+      if (n % 10 == 0) step_by_step.route(pose, {10, 10});  // measures edges
     }
     step_by_step.update();
     at_once.update();

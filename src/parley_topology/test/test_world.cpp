@@ -227,7 +227,7 @@ Drive drive(Topology& topology, const TestWorld& world, Eigen::Vector2d position
     topology.integrate(world.noisyScan(pose, options.noise, random), pose);
     if (i % 2 == 0 || !result.last.exists()) {
       const TopologyResult update = topology.update();
-      result.last = topology.route(pose, goal, 0.1 * i);
+      result.last = topology.route(pose, goal);
       if (options.after) options.after(i, update, result.last);
     }
     result.switches = result.last.switches;

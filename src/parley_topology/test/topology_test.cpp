@@ -35,7 +35,7 @@ Footprint discLike() { return {0.4, 0.4}; }
 TEST(Topology, goesStraightThroughTheUnknown) {
   Topology topology({}, testFootprint());
   topology.update();
-  const Route route = topology.route(at(0, 0), {30, 40}, 0.0);
+  const Route route = topology.route(at(0, 0), {30, 40});
   EXPECT_EQ(route.verdict, RouteVerdict::kThroughUnknown);
   ASSERT_EQ(route.points.size(), 2U);
   EXPECT_NEAR(route.length, 50.0, 1e-9);
@@ -47,7 +47,7 @@ TEST(Topology, goesAroundAColumnByTheShorterSide) {
   world.setBox(3.5, 3.2, 4.5, 4.6);
   Topology topology({}, testFootprint());
   explore(topology, world);
-  const Route route = topology.route(at(2.0, 3.8), {6.0, 3.8}, 0.0);
+  const Route route = topology.route(at(2.0, 3.8), {6.0, 3.8});
   EXPECT_EQ(route.verdict, RouteVerdict::kThroughKnown);
   ASSERT_EQ(route.points.size(), 4U);
   EXPECT_LT(route.points[1].y(), 3.2);  // 0.6 m below, 0.8 m above
@@ -59,7 +59,7 @@ TEST(Topology, corridorHasItsWidth) {
   const TestWorld world = TestWorld::fromText({"############", "#..........#", "############"}, 1.2);
   Topology topology({}, testFootprint());
   explore(topology, world, 0.6);
-  const Route route = topology.route(at(2.0, 1.8), {12.0, 1.8}, 0.0);
+  const Route route = topology.route(at(2.0, 1.8), {12.0, 1.8});
   EXPECT_EQ(route.verdict, RouteVerdict::kThroughKnown);
   EXPECT_NEAR(route.length, 10.0, 0.01);
   EXPECT_NEAR(route.narrowest, 1.2, 0.11);
@@ -71,7 +71,7 @@ TEST(Topology, crossOfCorridors) {
       1.0);
   Topology topology({}, testFootprint());
   explore(topology, world, 0.5);
-  const Route route = topology.route(at(0.5, 3.5), {5.5, 0.5}, 0.0);
+  const Route route = topology.route(at(0.5, 3.5), {5.5, 0.5});
   EXPECT_EQ(route.verdict, RouteVerdict::kThroughKnown);
   EXPECT_NEAR(route.length, world.shortestWay({0.5, 3.5}, {5.5, 0.5}, 0.22), 0.2);
 }
@@ -90,7 +90,7 @@ TEST(Topology, doorwaysFromTheSizeOfTheRobotOn) {
         topology.integrate(world.noisyScan(pose, 0.02, random), pose);
         topology.update();
       }
-      EXPECT_EQ(topology.route(at(3.4, 3.0), {6.0, 3.0}, 0.0).exists(), gap > 0.5) << "gap " << gap << " seed " << seed;
+      EXPECT_EQ(topology.route(at(3.4, 3.0), {6.0, 3.0}).exists(), gap > 0.5) << "gap " << gap << " seed " << seed;
     }
   }
 }
@@ -101,31 +101,31 @@ TEST(Topology, sealedOffIsUnreachable) {
   world.setBox(4.2, 4.2, 7.8, 7.8, false);
   Topology topology({}, testFootprint());
   explore(topology, world);
-  const Route route = topology.route(at(1.0, 1.0), {6.0, 6.0}, 0.0);
+  const Route route = topology.route(at(1.0, 1.0), {6.0, 6.0});
   EXPECT_EQ(route.verdict, RouteVerdict::kUnreachableAsKnown);
   EXPECT_FALSE(route.exists());
-  EXPECT_TRUE(topology.route(at(1.0, 1.0), {11.0, 11.0}, 0.0).exists());
+  EXPECT_TRUE(topology.route(at(1.0, 1.0), {11.0, 11.0}).exists());
   TopologyOptions options;
   options.search = "depth_first";
   Topology other(options, testFootprint());
   explore(other, world);
-  EXPECT_EQ(other.route(at(1.0, 1.0), {6.0, 6.0}, 0.0).verdict, RouteVerdict::kUnreachableAsKnown);
-  EXPECT_NEAR(other.route(at(1.0, 1.0), {11.0, 11.0}, 0.0).cost, topology.route(at(1.0, 1.0), {11.0, 11.0}, 0.0).cost, 1e-9);
+  EXPECT_EQ(other.route(at(1.0, 1.0), {6.0, 6.0}).verdict, RouteVerdict::kUnreachableAsKnown);
+  EXPECT_NEAR(other.route(at(1.0, 1.0), {11.0, 11.0}).cost, topology.route(at(1.0, 1.0), {11.0, 11.0}).cost, 1e-9);
 }
 
 TEST(Topology, startsAndGoalsTooCloseToWallsAreMoved) {
   TestWorld world(8.0, 8.0);
   Topology topology({}, testFootprint());
   explore(topology, world);
-  const Route from_wall = topology.route(at(0.1, 4.0), {4.0, 4.0}, 0.0);
+  const Route from_wall = topology.route(at(0.1, 4.0), {4.0, 4.0});
   ASSERT_TRUE(from_wall.exists());
   EXPECT_EQ(from_wall.points.front(), Eigen::Vector2d(0.1, 4.0));
-  const Route to_wall = topology.route(at(4.0, 4.0), {0.1, 4.0}, 0.0);
+  const Route to_wall = topology.route(at(4.0, 4.0), {0.1, 4.0});
   ASSERT_TRUE(to_wall.exists());
   EXPECT_LT((to_wall.points.back() - Eigen::Vector2d(0.1, 4.0)).norm(), 0.3);
   world.setBox(5.0, 5.0, 6.5, 6.5);
   explore(topology, world);
-  EXPECT_EQ(topology.route(at(4.0, 4.0), {5.75, 5.75}, 0.0).verdict, RouteVerdict::kUnreachableAsKnown);
+  EXPECT_EQ(topology.route(at(4.0, 4.0), {5.75, 5.75}).verdict, RouteVerdict::kUnreachableAsKnown);
 }
 
 TEST(Topology, routesAreAsShortAsAGridsOnceAllIsSeen) {
@@ -143,7 +143,7 @@ TEST(Topology, routesAreAsShortAsAGridsOnceAllIsSeen) {
       const Eigen::Vector2d from(place(random), place(random)), to(place(random), place(random));
       if (!world.isClear(from, 0.3) || !world.isClear(to, 0.3) || (to - from).norm() < 2.0) continue;
       const double wide = world.shortestWay(from, to, 0.25), tight = world.shortestWay(from, to, 0.16);
-      const Route route = topology.route({from.x(), from.y(), 0.0}, to, 0.0);
+      const Route route = topology.route({from.x(), from.y(), 0.0}, to);
       if (std::isinf(wide) || wide > 1.05 * tight) continue;  // passages in which a centimetre decides
       ASSERT_TRUE(route.exists()) << "seed " << seed << " from " << from.transpose() << " to " << to.transpose();
       EXPECT_LT(route.length, 1.05 * wide) << "seed " << seed << " from " << from.transpose() << " to " << to.transpose();
@@ -211,7 +211,7 @@ TEST(Topology, ownSensingOverrulesAPeer) {
   topology.setLayer(layer);
   topology.integrate(world.scan(at(1.0, 3.0)), at(1.0, 3.0));
   topology.update();
-  const Route told = topology.route(at(1.0, 3.0), {9.0, 3.0}, 0.0);
+  const Route told = topology.route(at(1.0, 3.0), {9.0, 3.0});
   EXPECT_GT(told.length, 9.0);
   bool from_bob = false;
   for (const Vertex& v : topology.graph().vertices()) from_bob = from_bob || v.provenance.origin == "bob";
@@ -219,7 +219,7 @@ TEST(Topology, ownSensingOverrulesAPeer) {
   EXPECT_EQ(topology.localMap({6.0, 3.0}, 1.0, 0.0).at(Eigen::Vector2d(6.01, 3.0)), CellState::kOccupied);
   for (int i = 0; i < 10; ++i) topology.integrate(world.scan(at(4.0, 3.0)), at(4.0, 3.0));
   topology.update();
-  const Route seen = topology.route(at(4.0, 3.0), {9.0, 3.0}, 0.0);
+  const Route seen = topology.route(at(4.0, 3.0), {9.0, 3.0});
   EXPECT_NEAR(seen.length, 5.0, 0.01);
   EXPECT_EQ(topology.localMap({6.0, 3.0}, 1.0, 0.0).at(Eigen::Vector2d(6.01, 3.0)), CellState::kSeenFree);
 }
@@ -229,10 +229,10 @@ TEST(Topology, tentativePeersMakeWaysDearerOnly) {
   LayerUpdate layer{"bob", 1, 5.0, {}, false, {}};
   layer.contours.push_back({{{5.0, -100.0}, {5.0, 100.0}}, false});
   topology.update();
-  const double before = topology.route(at(0.0, 0.0), {10.0, 0.0}, 0.0).cost;
+  const double before = topology.route(at(0.0, 0.0), {10.0, 0.0}).cost;
   topology.setLayer(layer);
   EXPECT_EQ(topology.update().layers, 1);
-  const Route route = topology.route(at(0.0, 0.0), {10.0, 0.0}, 0.0);
+  const Route route = topology.route(at(0.0, 0.0), {10.0, 0.0});
   ASSERT_TRUE(route.exists());
   EXPECT_NEAR(route.length, 10.0, 1e-9);
   EXPECT_GT(route.cost, before + 1.0);
@@ -268,8 +268,8 @@ TEST(Topology, refusesWhatIsNotFinite) {
   topology.integrate(ObstacleScan(), at(3, 3));
   topology.integrate(world.scan(at(3, 3)), at(1e7, 0.0));
   topology.setLayer({"bob", 1, 0.0, {nan, 0.0, 0.0}, true, {}});
-  EXPECT_EQ(topology.route({nan, 0, 0}, {1, 1}, 0.0).verdict, RouteVerdict::kNoGoal);
-  EXPECT_EQ(topology.route(at(0, 0), {nan, 1}, 0.0).verdict, RouteVerdict::kNoGoal);
+  EXPECT_EQ(topology.route({nan, 0, 0}, {1, 1}).verdict, RouteVerdict::kNoGoal);
+  EXPECT_EQ(topology.route(at(0, 0), {nan, 1}).verdict, RouteVerdict::kNoGoal);
   const TopologyResult result = topology.update();
   EXPECT_EQ(result.refused, 6);
   EXPECT_EQ(result.tiles, 0);
@@ -292,7 +292,7 @@ TEST(Topology, staysWithinItsBounds) {
   EXPECT_LE(result.tiles, 12);
   EXPECT_LE(result.vertices, 20);
   EXPECT_LE(result.edges, 64);
-  topology.route(at(0.5, 0.5), {19.0, 19.0}, 0.0);
+  topology.route(at(0.5, 0.5), {19.0, 19.0});
   topology.reset();
   const TopologyResult empty = topology.update();
   EXPECT_EQ(empty.tiles, 0);

@@ -10,7 +10,7 @@ namespace parley {
 enum class RouteVerdict {
   kNoGoal,             // nothing asked
   kThroughKnown,       // every step has been seen free
-  kThroughUnknown,     // crosses space that nobody has seen
+  kThroughUnknown,     // crosses space that this robot has not seen
   kUnreachableAsKnown  // all that is known closes it off
 };
 

@@ -51,8 +51,8 @@ class Topology {
   TopologyResult update();
 
   /// The way to a goal on the graph as of the last update. Keeps to the side of obstacles it has committed to unless the
-  /// way is shut or another is much cheaper. `now` [s] is for provenance only: nothing depends on the hour.
-  Route route(const Pose2& T_odom_base, const Eigen::Vector2d& goal_odom, double now);
+  /// way is shut or another is much cheaper.
+  Route route(const Pose2& T_odom_base, const Eigen::Vector2d& goal_odom);
 
   /// A square window of `size` [m] around `center`, aligned with the map's cells.
   LocalMap localMap(const Eigen::Vector2d& center, double size, double stamp) const;
