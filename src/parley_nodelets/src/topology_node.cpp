@@ -74,7 +74,7 @@ void TopologyNode::update() {
   takeGoal();
   if (odometry.buffer.empty() || !newest_scan_) return;
   last_result_ = topology_->update();
-  publishRoute(odometry.buffer.latest().pose, now);
+  publishRoute(odometry.buffer.latest().pose);
   publishPictures();
 }
 
@@ -92,7 +92,7 @@ void TopologyNode::publishLocalMap(const Pose2& T_odom_base) {
   local_map_.publish(boost::make_shared<nav_msgs::OccupancyGrid>(toMessage(map, config_.node.frames.odom)));
 }
 
-void TopologyNode::publishRoute(const Pose2& T_odom_base, double now) {
+void TopologyNode::publishRoute(const Pose2& T_odom_base) {
   if (!goal_) return;
   route_ = topology_->route(T_odom_base, *goal_);
   const RouteToGoal route{route_, *goal_};

@@ -29,7 +29,7 @@ class TopologyNode {
   void update();
   void takeGoal();
   void publishLocalMap(const Pose2& T_odom_base);
-  void publishRoute(const Pose2& T_odom_base, double now);
+  void publishRoute(const Pose2& T_odom_base);
   void publishPictures();
   void forgetIfBroken(double now, const OdometrySnapshot& odometry);
   void report(diagnostic_updater::DiagnosticStatusWrapper& status) const;
