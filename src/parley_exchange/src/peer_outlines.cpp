@@ -15,9 +15,8 @@ constexpr double kSampleSpacing = 0.25;  // [m]
 
 /// Standard deviation in the worst direction. [m]
 double worstSigma(const Eigen::Matrix2d& covariance) {
-  const double half = 0.5 * covariance.trace();
-  const double spread = std::sqrt(std::max(0.0, half * half - covariance.determinant()));
-  return std::sqrt(std::max(0.0, half + spread));
+  const double spread = std::hypot(0.5 * (covariance(0, 0) - covariance(1, 1)), covariance(0, 1));
+  return std::sqrt(std::max(0.0, 0.5 * covariance.trace() + spread));
 }
 
 }  // namespace

@@ -45,6 +45,7 @@ std::vector<std::pair<std::uint32_t, Record>> history(std::uint64_t seed) {
       } else {
         own.write(RecordKind::kContour, id, Bytes(engine() % 30), 0.0);
       }
+      if (own.log() == nullptr) continue;
       // Any record that is live may be sent at any time, with the gap known then.
       for (const auto& record : store.find(kLog)->records) {
         if (engine() % 6 != 0) continue;
