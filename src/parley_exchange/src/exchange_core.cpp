@@ -31,7 +31,7 @@ Exchange::Core::Core(const ExchangeOptions& given_options, const ExchangeIdentit
       sealer_(identity.key),
       selector_(options, self),
       outlines_(options.endorse_distance),
-      edges_(map_log, options.contour_interval),
+      edges_(map_log, options.contour_interval, options.max_edges),
       bucket_(options.rate, options.burst) {}
 
 void Exchange::Core::addPacket(const Bytes& datagram, double now) {

@@ -44,7 +44,8 @@ struct RecordSelector::Candidate {
   StoredRecord* stored;
 
   auto rank(RobotId self) const {
-    return std::make_tuple(urgencyOf(stored->record), stored->sends, name.origin != self, -stored->written, name.origin,
+    // What has been sent again and again waits for what never was, even if that is less urgent.
+    return std::make_tuple(urgencyOf(stored->record) + stored->sends, name.origin != self, -stored->written, name.origin,
                            stored->record.sequence);
   }
 };

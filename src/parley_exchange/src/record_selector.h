@@ -18,7 +18,7 @@ struct Neighbour {
 };
 
 /// Picks the records for a packet: those that some neighbour is not known to have and that have not been sent just now,
-/// by kind, then the least sent, own before others', newest first.
+/// the more urgent kinds and the least sent first, own before others', newest first.
 class RecordSelector {
  public:
   RecordSelector(const ExchangeOptions& options, RobotId self) : options_(options), self_(self) {}

@@ -29,7 +29,8 @@ TEST(BitStream, roundTripOfRandomFields) {
         EXPECT_EQ(reader.golomb(field.first), field.second);
       }
       if (field.first >= 8 && field.first < 16) {
-        EXPECT_EQ(reader.signedGolomb(field.first - 8), static_cast<std::int32_t>(field.second / 2) * (field.second % 2 == 0 ? 1 : -1));
+        EXPECT_EQ(reader.signedGolomb(field.first - 8),
+                  static_cast<std::int32_t>(field.second / 2) * (field.second % 2 == 0 ? 1 : -1));
       }
       if (field.first >= 16) {
         EXPECT_EQ(reader.bits(32), field.second);
@@ -73,7 +74,8 @@ TEST(Quantity, roundingIsWithinHalfAStepAndStaysPut) {
     writeAngle(writer, angle, 12);
     write(writer, std::abs(value), LogQuantity{0.05, 6, 7});
     BitReader reader(writer.data());
-    const double back = read(reader, kCoarsePosition), angle_back = readAngle(reader, 12), log_back = read(reader, LogQuantity{0.05, 6, 7});
+    const double back = read(reader, kCoarsePosition), angle_back = readAngle(reader, 12),
+                 log_back = read(reader, LogQuantity{0.05, 6, 7});
     EXPECT_NEAR(back, value, 0.5 * kCoarsePosition.step + 1e-9);
     EXPECT_NEAR(wrapAngle(angle_back - angle), 0.0, kPi / 4096.0 + 1e-9);
     EXPECT_GE(log_back, std::abs(value) * (1.0 - 1e-6));
@@ -202,7 +204,8 @@ TEST(Contour, takesOneAndAHalfToTwoBytesAVertex) {
     for (int i = 0; i < 12; ++i) {
       contour.vertices.push_back(at);
       const int step = random.whole(4, 24);
-      at += i % 2 == 0 ? Eigen::Vector2i(step, random.whole(-1, 1)) : Eigen::Vector2i(random.whole(-1, 1), (i % 4 == 1 ? 1 : -1) * step);
+      at += i % 2 == 0 ? Eigen::Vector2i(step, random.whole(-1, 1))
+                       : Eigen::Vector2i(random.whole(-1, 1), (i % 4 == 1 ? 1 : -1) * step);
     }
     bits += 8 * encode(contour).size() - 37;
     vertices += contour.vertices.size();

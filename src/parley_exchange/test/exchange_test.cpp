@@ -188,7 +188,8 @@ TEST(Exchange, keyframesReachNeighboursWhosePoseIsUnknown) {
   team.connect(0, 1);
   team.connect(0, 2);
   for (int i = 0; i < 10; ++i) {
-    const auto id = team[0].publishKeyframe(Bytes(150, static_cast<std::uint8_t>(i)), {1.0 * i, 0.0, 0.1}, team.timeOf(0), team.timeOf(0));
+    const auto id =
+        team[0].publishKeyframe(Bytes(150, static_cast<std::uint8_t>(i)), {1.0 * i, 0.0, 0.1}, team.timeOf(0), team.timeOf(0));
     EXPECT_EQ(id, static_cast<std::uint32_t>(i + 1));
     team.run(0.5);
   }

@@ -32,11 +32,21 @@ Bytes mutated(Bytes bytes, RandomContent& random) {
   for (int i = random.whole(1, 6); i > 0 && !bytes.empty(); --i) {
     const auto at = static_cast<std::size_t>(random.whole(0, static_cast<int>(bytes.size()) - 1));
     switch (random.whole(0, 4)) {
-      case 0: bytes[at] = static_cast<std::uint8_t>(bytes[at] ^ (1U << random.whole(0, 7))); break;
-      case 1: bytes[at] = static_cast<std::uint8_t>(random.word()); break;
-      case 2: bytes.resize(at); break;
-      case 3: bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(at), static_cast<std::uint8_t>(random.word())); break;
-      default: bytes[at] = random.chance(0.5) ? 0xff : 0; break;
+      case 0:
+        bytes[at] = static_cast<std::uint8_t>(bytes[at] ^ (1U << random.whole(0, 7)));
+        break;
+      case 1:
+        bytes[at] = static_cast<std::uint8_t>(random.word());
+        break;
+      case 2:
+        bytes.resize(at);
+        break;
+      case 3:
+        bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(at), static_cast<std::uint8_t>(random.word()));
+        break;
+      default:
+        bytes[at] = random.chance(0.5) ? 0xff : 0;
+        break;
     }
   }
   return bytes;

@@ -126,18 +126,27 @@ Record RandomContent::record(std::uint32_t sequence) {
   record.removed = chance(0.15);
   if (record.removed) return record;
   switch (record.kind) {
-    case RecordKind::kContour: record.body = encode(contour()); break;
-    case RecordKind::kAnchor: record.body = encode(AnchorBody{pose(500.0), real(0.001, 5.0), real(0.0001, 1.0)}); break;
-    case RecordKind::kEdge: record.body = encode(edge()); break;
+    case RecordKind::kContour:
+      record.body = encode(contour());
+      break;
+    case RecordKind::kAnchor:
+      record.body = encode(AnchorBody{pose(500.0), real(0.001, 5.0), real(0.0001, 1.0)});
+      break;
+    case RecordKind::kEdge:
+      record.body = encode(edge());
+      break;
     case RecordKind::kContest:
     case RecordKind::kEndorsement:
-      record.body = encode(ContourReference{word(), static_cast<std::uint16_t>(word() & 0xffff), static_cast<std::uint32_t>(whole(0, 300)),
-                                            static_cast<std::uint32_t>(whole(1, 5000))});
+      record.body =
+          encode(ContourReference{word(), static_cast<std::uint16_t>(word() & 0xffff), static_cast<std::uint32_t>(whole(0, 300)),
+                                  static_cast<std::uint32_t>(whole(1, 5000))});
       break;
     case RecordKind::kKeyframe:
       record.body = encode(KeyframeBody{word(), pose(500.0), bytes(static_cast<std::size_t>(whole(0, 120)))});
       break;
-    default: record.body = bytes(static_cast<std::size_t>(whole(0, 20))); break;
+    default:
+      record.body = bytes(static_cast<std::size_t>(whole(0, 20)));
+      break;
   }
   return record;
 }

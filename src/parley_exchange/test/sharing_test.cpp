@@ -42,7 +42,8 @@ TEST_F(Sharing, aContourArrivesInItsAnchorsFrame) {
   const auto contours = held(1, 0);
   ASSERT_EQ(contours.size(), 2U);
   ASSERT_EQ(anchors.size(), 2U);
-  const auto anchor = std::find_if(anchors.begin(), anchors.end(), [&](const SharedAnchor& a) { return a.id == contours[0].anchor; });
+  const auto anchor =
+      std::find_if(anchors.begin(), anchors.end(), [&](const SharedAnchor& a) { return a.id == contours[0].anchor; });
   const Polygon placed = transformed(anchor->pose, contours[0].polygon);
   EXPECT_LT((placed.front() - Eigen::Vector2d(11.0, 6.0)).norm(), 0.04);
   EXPECT_LT((placed.back() - Eigen::Vector2d(14.0, 6.0)).norm(), 0.04);
@@ -265,7 +266,8 @@ TEST_F(Sharing, longOrKnottedOutlinesAreCutIntoPieces) {
   start(2);
   team.connectAll();
   OwnContour spiral{1, {}, false, false, 0.0};
-  for (int i = 0; i < 120; ++i) spiral.polygon.push_back({(1.0 + 0.03 * i) * std::cos(0.2 * i), (1.0 + 0.03 * i) * std::sin(0.2 * i)});
+  for (int i = 0; i < 120; ++i)
+    spiral.polygon.push_back({(1.0 + 0.03 * i) * std::cos(0.2 * i), (1.0 + 0.03 * i) * std::sin(0.2 * i)});
   OwnContour eight{2, {{0.0, 0.0}, {1.0, 1.0}, {1.0, 0.0}, {0.0, 1.0}}, true, false, 0.0};
   OwnContour far{3, {{100.0, 0.0}, {101.0, 0.0}}, false, false, 0.0};
   publish(0, {spiral, eight, far});

@@ -21,7 +21,8 @@ std::string text(const RecordStore& store) {
   for (const auto& log : store.logs()) {
     result += std::to_string(log.first.origin) + " epoch " + std::to_string(log.second.epoch) + ":";
     for (const auto& record : log.second.records) {
-      result += " " + std::to_string(record.first) + (record.second.record.removed ? "x" : "") + std::to_string(record.second.record.body.size());
+      result += " " + std::to_string(record.first) + (record.second.record.removed ? "x" : "") +
+                std::to_string(record.second.record.body.size());
     }
     for (const Interval& interval : log.second.covered.intervals()) {
       result += " [" + std::to_string(interval.first) + "," + std::to_string(interval.last) + "]";

@@ -37,6 +37,7 @@ struct ExchangeOptions {
   double contour_interval = 3.0;   // [s]
   double tombstone_delay = 2.0;    // [s]
   double endorse_distance = 0.15;  // [m]
+  int max_edges = 8;               // [-]
   int max_endorsements = 2;        // [-]
 
   int max_peers = 128;            // [-]
@@ -81,6 +82,7 @@ struct ExchangeOptions {
     v.number("tombstone_delay", tombstone_delay, "s", 0.0, 60.0, "a contour that is missing so long is withdrawn");
     v.number("endorse_distance", endorse_distance, "m", 0.0, 1.0,
              "a contour within this and two sigma of a confirmed peer's is endorsed and not sent");
+    v.integer("max_edges", max_edges, "-", 1, 1000, "peers whose measured pose is told at a time");
     v.integer("max_endorsements", max_endorsements, "-", 0, 100, "with so many of others, no endorsement is added");
     v.integer("max_peers", max_peers, "-", 1, 1000, "robots listed; more are not listened to until one leaves");
     v.integer("max_senders", max_senders, "-", 1, 10000, "robots whose boots are remembered; more are refused");
