@@ -10,12 +10,13 @@
 namespace parley {
 namespace {
 
-constexpr int kVertexBits = 10;                          // [-]
-constexpr int kCountBits = 6;                            // [-]
-constexpr LogQuantity kAnchorPositionSigma{1e-3, 4, 6};  // [m]
-constexpr LogQuantity kAnchorYawSigma{1e-4, 4, 6};       // [rad]
-constexpr LogQuantity kEdgeSigma{1e-4, 12, 8};           // [m] and [rad]
-constexpr Quantity kCorrelation{1.0 / 128.0, 8, true};   // [-]
+constexpr int kVertexBits = 10;                                        // [-]
+constexpr std::int64_t kLongestStep = std::int64_t{2} * kVertexLimit;  // [-] from vertex to vertex
+constexpr int kCountBits = 6;                                          // [-]
+constexpr LogQuantity kAnchorPositionSigma{1e-3, 4, 6};                // [m]
+constexpr LogQuantity kAnchorYawSigma{1e-4, 4, 6};                     // [rad]
+constexpr LogQuantity kEdgeSigma{1e-4, 12, 8};                         // [m] and [rad]
+constexpr Quantity kCorrelation{1.0 / 128.0, 8, true};                 // [-]
 
 void writeId(BitWriter& writer, std::uint32_t id) { writer.golomb(id, 4); }
 
@@ -104,8 +105,7 @@ std::optional<ContourBody> decodeContour(const Bytes& bytes) {
   for (std::size_t i = 0; i < count && reader.ok(); ++i) {
     if (i > 0) {
       const std::int32_t x = reader.signedGolomb(order), y = reader.signedGolomb(order);
-      if (std::abs(static_cast<std::int64_t>(x)) > 2 * kVertexLimit || std::abs(static_cast<std::int64_t>(y)) > 2 * kVertexLimit)
-        return std::nullopt;
+      if (std::max(std::abs(std::int64_t{x}), std::abs(std::int64_t{y})) > kLongestStep) return std::nullopt;
       vertex += Eigen::Vector2i(x, y);
     }
     if (vertex.cwiseAbs().maxCoeff() > kVertexLimit) return std::nullopt;

@@ -47,6 +47,7 @@ bool isOutline(const std::vector<Eigen::Vector2i>& vertices, bool closed) {
   const std::size_t n = vertices.size(), segments = closed ? n : n - 1;
   if (n < (closed ? 3U : 2U)) return false;
   std::vector<Vertex> points;
+  points.reserve(n);
   for (const Eigen::Vector2i& vertex : vertices) points.push_back(vertex.cast<std::int64_t>());
   for (std::size_t i = 0; i < segments; ++i) {
     const Vertex &a = points[i], &b = points[(i + 1) % n];

@@ -98,6 +98,8 @@ void Exchange::Core::takeRecord(Peer& peer, const LogName& name, std::uint32_t e
     return;
   }
   record.hops = std::min(7, record.hops + 1);
+  const Log* before = store.find(name);
+  const bool is_fresh_log = before == nullptr || before->epoch != epoch;
   const bool refers = record.kind == RecordKind::kContest || record.kind == RecordKind::kEndorsement;
   const MergeResult result = store.merge(name, epoch, record, now);
   if (result == MergeResult::kOldEpoch) ++counters.records_old_epoch;
@@ -113,7 +115,7 @@ void Exchange::Core::takeRecord(Peer& peer, const LogName& name, std::uint32_t e
   }
   ++counters.records_new;
   if (stored != log.records.end()) selector_.learned(stored->second, name.origin, now);
-  if (refers || record.kind == RecordKind::kContour) updateReferences();
+  if (refers || is_fresh_log) updateReferences();
 }
 
 void Exchange::Core::updateReferences() { tellContested(references.rebuild(store)); }

@@ -199,18 +199,19 @@ void Exchange::Core::forgetOld(double now) {
     addEvent(ExchangeEventKind::kPeerLost, peer->first, "a peer is no longer heard");
     peer = peers.erase(peer);
   }
-  std::vector<RobotId> old;
+  std::map<RobotId, double> newest;
   for (const auto& log : store.logs()) {
-    if (log.first.origin == self || peers.count(log.first.origin) != 0 || log.first.stream != RecordStream::kMap) continue;
-    double newest = -1e18;
-    for (const auto& record : log.second.records) newest = std::max(newest, record.second.arrived);
-    if (now - newest > options.origin_timeout) old.push_back(log.first.origin);
+    double& time = newest.emplace(log.first.origin, -1e18).first->second;
+    for (const auto& record : log.second.records) time = std::max(time, record.second.arrived);
   }
-  for (const RobotId origin : old) {
-    store.forget(origin);
-    poses.erase(origin);
+  bool any = false;
+  for (const auto& origin : newest) {
+    if (origin.first == self || peers.count(origin.first) != 0 || now - origin.second <= options.origin_timeout) continue;
+    store.forget(origin.first);
+    poses.erase(origin.first);
+    any = true;
   }
-  if (!old.empty()) updateReferences();
+  if (any) updateReferences();
 }
 
 void Exchange::Core::warnOfNamesakes(double now) {

@@ -48,6 +48,7 @@ void OwnMap::writeAnchor(std::uint32_t id, const Pose2& pose, double distance, d
 bool OwnMap::moveAnchor(std::uint32_t id, const Pose2& T_odom_anchor, double now) {
   if (anchors_.count(id) == 0 || !isPlace(T_odom_anchor)) return false;
   writeAnchor(id, T_odom_anchor, anchor_steps_[id], now);
+  for (auto& entry : contours_) entry.second.settled = false;
   return true;
 }
 
@@ -74,8 +75,12 @@ int OwnMap::publish(const std::vector<OwnContour>& contours, const PeerOutlines&
     }
     Published& published = contours_[contour.key];
     published.missing_since = -1.0;
-    if (!update(published, contour, outlines, references, now)) ++refused;
+    const bool same = contour.polygon == published.given.polygon && contour.closed == published.given.closed &&
+                      contour.hole == published.given.hole;
+    published.settled = published.settled && same;
+    const bool accepted = update(published, contour, outlines, references, now);
     published.given = contour;
+    if (!accepted) ++refused;
   }
   withdrawMissing(contours, now);
   return refused;
@@ -93,7 +98,9 @@ bool OwnMap::update(Published& published, const OwnContour& contour, const PeerO
     }
     return !others.empty() || write(published, contour, now);
   }
-  if (!differs(published, contour) && !isContested(published, references)) return true;
+  published.settled = published.settled || !differs(published, contour);
+  if (published.settled && !isContested(published, references)) return true;
+  published.settled = false;
   published.looked_at = now;
   return write(published, contour, now);
 }

@@ -34,6 +34,7 @@ class OwnMap {
     std::uint32_t anchor = 0;        // [-]
     Polygon polygon;                 // [m] as published, in the anchor's frame
     std::vector<std::uint32_t> ids;  // [-] of the records; empty while a peer's contour stands for it
+    bool settled = false;            // what is published agrees with `given`
     double looked_at = -1e9;         // [s] when it was last published or compared with peers' contours
     double missing_since = -1.0;     // [s] negative while it is there
   };
