@@ -96,7 +96,7 @@ void Exchange::Core::addRecords(PacketContent& content, double budget, double no
 
 Bytes Exchange::Core::seal(const PacketContent& content, double now) {
   const Bytes plain = encodePacket(content);
-  const Bytes frame = sealer_.seal({self, identity.boot, ++counter_}, plain);
+  Bytes frame = sealer_.seal({self, identity.boot, ++counter_}, plain);
   const double cost = static_cast<double>(frame.size()) + kDatagramOverhead;
   bucket_.spend(cost);
   receiver.sent(counter_, frame);
