@@ -39,19 +39,21 @@ class Tour {
   /// Where the bytes of one robot go. [byte/s]
   void print(const char* name, double duration) {
     SectionBytes sum;
-    double packets = 0.0;
+    double packets = 0.0, received = 0.0, fresh = 0.0;
     for (std::size_t i = 0; i < robots_.size(); ++i) {
       sum += team[i].counters().sections_sent;
       packets += static_cast<double>(team[i].counters().packets_sent);
+      received += static_cast<double>(team[i].counters().records_received);
+      fresh += static_cast<double>(team[i].counters().records_new);
     }
     const double all = duration * static_cast<double>(robots_.size());
     const auto each = [all](std::size_t bytes) { return static_cast<double>(bytes) / all; };
     std::printf(
         "%s: %.0f byte/s a robot in %.1f packets/s: trajectory %.0f, beacon %.0f, map %.0f, keyframe %.0f, frames and headers "
         "%.0f; "
-        "%.0f %% of contours shared\n",
+        "%.0f %% of contours shared, %.0f %% of the records that came were new\n",
         name, rate(duration), packets / all, each(sum.trajectory), each(sum.beacon), each(sum.map), each(sum.keyframe),
-        61.0 * packets / all, 100.0 * shared());
+        61.0 * packets / all, 100.0 * shared(), 100.0 * fresh / received);
   }
   /// Share of the contours and anchors of all robots that each of them holds. [-]
   double shared() {
