@@ -20,7 +20,7 @@ constexpr int kMaxAtOnce = 1000;  // [-] datagrams received in one call
 
 boost::asio::ip::address_v4 addressOf(const std::string& text) {
   boost::system::error_code error;
-  const auto address = boost::asio::ip::make_address_v4(text, error);
+  auto address = boost::asio::ip::make_address_v4(text, error);
   if (error) throw std::invalid_argument("udp: '" + text + "' is no IPv4 address");
   return address;
 }
