@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "section_codec.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "quantity.h"
+
+namespace parley {
+namespace {
+
+constexpr int kStateCount = static_cast<int>(DriveState::kDead) + 1;
+
+constexpr Quantity kAge{0.005, 8, false};             // [s]
+constexpr Quantity kSpeed{0.02, 10, true};            // [m/s]
+constexpr Quantity kTurnRate{0.02, 10, true};         // [rad/s]
+constexpr Quantity kSide{0.01, 9, false};             // [m]
+constexpr Quantity kTopSpeed{0.05, 8, false};         // [m/s]
+constexpr Quantity kTopTurnRate{0.05, 8, false};      // [rad/s]
+constexpr Quantity kAcceleration{0.1, 8, false};      // [m/s^2]
+constexpr Quantity kTurnAcceleration{0.2, 8, false};  // [rad/s^2]
+constexpr Quantity kHeard{1.0 / 15.0, 4, false};      // [-]
+constexpr Quantity kCost{0.1, 12, false};             // [-]
+constexpr Quantity kLease{0.1, 7, false};             // [s]
+constexpr Quantity kRange{0.005, 12, false};          // [m]
+constexpr int kBearingBits = 12;                      // [-]
+constexpr Quantity kChord{0.02, 6, false};            // [m]
+
+void writeState(BitWriter& writer, DriveState state) { writer.bits(static_cast<std::uint64_t>(state), 4); }
+
+DriveState readState(BitReader& reader) {
+  const int state = static_cast<int>(reader.bits(4));
+  if (state >= kStateCount) reader.fail();
+  return state < kStateCount ? static_cast<DriveState>(state) : DriveState::kStopped;
+}
+
+/// A robot must not look smaller than it is.
+double roundedUp(double side) { return std::ceil(side / kSide.step - 1e-6) * kSide.step; }
+
+}  // namespace
+
+bool isName(const std::string& name) {
+  return !name.empty() && name.size() <= kMaxName &&
+         std::all_of(name.begin(), name.end(), [](char c) { return c > ' ' && c <= '~'; });
+}
+
+void encode(BitWriter& writer, const Beacon& beacon) {
+  assert(isName(beacon.name));
+  write(writer, beacon.age, kAge);
+  writePose(writer, beacon.pose, kCoarsePosition, kCoarseYawBits);
+  write(writer, beacon.twist.speed, kSpeed);
+  write(writer, beacon.twist.turn_rate, kTurnRate);
+  writeState(writer, beacon.state);
+  write(writer, roundedUp(beacon.footprint.length), kSide);
+  write(writer, roundedUp(beacon.footprint.width), kSide);
+  write(writer, beacon.limits.speed, kTopSpeed);
+  write(writer, beacon.limits.turn_rate, kTopTurnRate);
+  write(writer, beacon.limits.acceleration, kAcceleration);
+  write(writer, beacon.limits.turn_acceleration, kTurnAcceleration);
+  writer.bits(static_cast<std::uint64_t>(std::clamp(beacon.neighbours, 0, 127)), 7);
+  writer.bits(beacon.map_hash, 32);
+  writer.bits(beacon.name.size(), 5);
+  for (const char letter : beacon.name) writer.bits(static_cast<std::uint64_t>(letter), 7);
+}
+
+std::optional<Beacon> decodeBeacon(BitReader reader) {
+  Beacon beacon;
+  beacon.age = read(reader, kAge);
+  beacon.pose = readPose(reader, kCoarsePosition, kCoarseYawBits);
+  beacon.twist.speed = read(reader, kSpeed);
+  beacon.twist.turn_rate = read(reader, kTurnRate);
+  beacon.state = readState(reader);
+  beacon.footprint.length = read(reader, kSide);
+  beacon.footprint.width = read(reader, kSide);
+  beacon.limits.speed = read(reader, kTopSpeed);
+  beacon.limits.turn_rate = read(reader, kTopTurnRate);
+  beacon.limits.acceleration = read(reader, kAcceleration);
+  beacon.limits.turn_acceleration = read(reader, kTurnAcceleration);
+  beacon.neighbours = static_cast<int>(reader.bits(7));
+  beacon.map_hash = static_cast<std::uint32_t>(reader.bits(32));
+  const std::size_t length = reader.bits(5);
+  for (std::size_t i = 0; i < length && reader.ok(); ++i) beacon.name.push_back(static_cast<char>(reader.bits(7)));
+  return reader.ok() && isName(beacon.name) ? std::make_optional(beacon) : std::nullopt;
+}
+
+void encode(BitWriter& writer, const std::vector<Echo>& echoes) {
+  const std::size_t count = std::min(echoes.size(), kMaxEchoes);
+  writer.bits(count, 4);
+  for (std::size_t i = 0; i < count; ++i) {
+    writer.bits(echoes[i].robot, 32);
+    writer.bits(echoes[i].counter, 16);
+    writer.bits(echoes[i].difference, 32);
+    write(writer, echoes[i].heard, kHeard);
+  }
+}
+
+std::optional<std::vector<Echo>> decodeEchoes(BitReader reader) {
+  std::vector<Echo> echoes(reader.bits(4));
+  for (Echo& echo : echoes) {
+    echo.robot = static_cast<RobotId>(reader.bits(32));
+    echo.counter = static_cast<std::uint16_t>(reader.bits(16));
+    echo.difference = static_cast<std::uint32_t>(reader.bits(32));
+    echo.heard = read(reader, kHeard);
+  }
+  return reader.ok() ? std::make_optional(echoes) : std::nullopt;
+}
+
+void encode(BitWriter& writer, const std::vector<DigestEntry>& digest) {
+  const std::size_t count = std::min(digest.size(), kMaxDigest);
+  writer.bits(count, 5);
+  for (std::size_t i = 0; i < count; ++i) {
+    const DigestEntry& entry = digest[i];
+    const std::size_t intervals = std::min(entry.intervals.size(), kMaxIntervals);
+    writer.bits(entry.origin, 32);
+    writer.bits(static_cast<std::uint64_t>(entry.stream), 2);
+    writer.bits(entry.epoch, 16);
+    writer.bits(intervals, 3);
+    std::uint32_t end = 0;
+    for (std::size_t j = 0; j < intervals; ++j) {
+      writer.golomb(entry.intervals[j].first - end - 1, j == 0 ? 0 : 2);
+      writer.golomb(entry.intervals[j].last - entry.intervals[j].first, j == 0 ? 5 : 2);
+      end = entry.intervals[j].last;
+    }
+  }
+}
+
+std::optional<std::vector<DigestEntry>> decodeDigest(BitReader reader) {
+  std::vector<DigestEntry> digest(reader.bits(5));
+  for (DigestEntry& entry : digest) {
+    entry.origin = static_cast<RobotId>(reader.bits(32));
+    const std::uint64_t stream = reader.bits(2);
+    entry.epoch = static_cast<std::uint16_t>(reader.bits(16));
+    const std::size_t intervals = reader.bits(3);
+    if (!reader.ok() || stream > 1 || intervals > kMaxIntervals) return std::nullopt;
+    entry.stream = static_cast<RecordStream>(stream);
+    std::uint64_t end = 0;
+    for (std::size_t j = 0; j < intervals; ++j) {
+      const std::uint64_t first = end + 1 + reader.golomb(j == 0 ? 0 : 2);
+      end = first + reader.golomb(j == 0 ? 5 : 2);
+      if (!reader.ok() || end > 0x7fffffff) return std::nullopt;
+      entry.intervals.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(end)});
+    }
+  }
+  return reader.ok() ? std::make_optional(digest) : std::nullopt;
+}
+
+void encode(BitWriter& writer, const std::vector<Conflict>& conflicts) {
+  const std::size_t count = std::min(conflicts.size(), kMaxConflicts);
+  writer.bits(count, 3);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Conflict& conflict = conflicts[i];
+    writer.bits(conflict.peer, 32);
+    writer.bits(static_cast<std::uint64_t>(conflict.kind), 2);
+    writer.bits(static_cast<std::uint64_t>(conflict.round) & 63U, 6);
+    write(writer, conflict.cost, kCost);
+    write(writer, conflict.lease, kLease);
+    writer.flag(conflict.place.has_value());
+    if (!conflict.place) continue;
+    write(writer, conflict.place->x(), kCoarsePosition);
+    write(writer, conflict.place->y(), kCoarsePosition);
+  }
+}
+
+std::optional<std::vector<Conflict>> decodeConflicts(BitReader reader) {
+  std::vector<Conflict> conflicts(reader.bits(3));
+  for (Conflict& conflict : conflicts) {
+    conflict.peer = static_cast<RobotId>(reader.bits(32));
+    const std::uint64_t kind = reader.bits(2);
+    if (kind > static_cast<std::uint64_t>(ConflictKind::kRelease)) return std::nullopt;
+    conflict.kind = static_cast<ConflictKind>(kind);
+    conflict.round = static_cast<int>(reader.bits(6));
+    conflict.cost = read(reader, kCost);
+    conflict.lease = read(reader, kLease);
+    if (!reader.flag()) continue;
+    const double x = read(reader, kCoarsePosition);
+    conflict.place = Eigen::Vector2d(x, read(reader, kCoarsePosition));
+  }
+  return reader.ok() ? std::make_optional(conflicts) : std::nullopt;
+}
+
+void encode(BitWriter& writer, const ObservationMessage& observations) {
+  const std::size_t count = std::min(observations.blobs.size(), kMaxBlobs);
+  write(writer, observations.age, kAge);
+  writePose(writer, observations.pose, kFinePosition, kFineYawBits);
+  writer.bits(count, 4);
+  for (std::size_t i = 0; i < count; ++i) {
+    write(writer, observations.blobs[i].range, kRange);
+    writeAngle(writer, observations.blobs[i].bearing, kBearingBits);
+    write(writer, observations.blobs[i].chord, kChord);
+  }
+}
+
+std::optional<ObservationMessage> decodeObservations(BitReader reader) {
+  ObservationMessage observations;
+  observations.age = read(reader, kAge);
+  observations.pose = readPose(reader, kFinePosition, kFineYawBits);
+  const std::size_t count = reader.bits(4);
+  if (count > kMaxBlobs) return std::nullopt;
+  observations.blobs.resize(count);
+  for (Observation& blob : observations.blobs) {
+    blob.range = read(reader, kRange);
+    blob.bearing = readAngle(reader, kBearingBits);
+    blob.chord = read(reader, kChord);
+  }
+  return reader.ok() ? std::make_optional(observations) : std::nullopt;
+}
+
+}  // namespace parley

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "team.h"
+
+namespace parley {
+namespace {
+
+/// Two or more robots that stand about a metre apart, each at the origin of its own odom frame.
+Team standingTeam(std::size_t count, std::uint64_t seed = 1) {
+  Team team(seed);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t robot = team.add(17.0 * static_cast<double>(i));
+    team[robot].setOdometry(standing({}, team.timeOf(robot)), DriveState::kStopped);
+  }
+  return team;
+}
+
+PeerPose confirmedAt(double x) {
+  PeerPose pose;
+  pose.T_odom_peer.pose = {x, 0.0, 0.0};
+  pose.T_odom_peer.covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-5).asDiagonal();
+  pose.state = EdgeState::kConfirmed;
+  pose.support = 3;
+  return pose;
+}
+
+}  // namespace
+
+TEST(Exchange, refusesABadIdentityWithAllProblems) {
+  ExchangeOptions options;
+  options.rate = -1.0;
+  ExchangeIdentity identity;
+  identity.name = "two words";
+  try {
+    const Exchange exchange(options, identity);
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    const std::string text = error.what();
+    for (const char* part : {"name", "rate", "footprint: length", "limits: speed"}) {
+      EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
+    }
+  }
+}
+
+TEST(Exchange, peersHearOfEachOther) {
+  Team team = standingTeam(2);
+  team.connectAll();
+  team[0].setOdometry({team.timeOf(0), {1.0, 2.0, 0.5}, {0.4, -0.2}, 0.0, 0.0}, DriveState::kDriving);
+  team.run(1.0);
+  const std::vector<PeerState> peers = team[1].peers(team.timeOf(1));
+  ASSERT_EQ(peers.size(), 1U);
+  const PeerState& peer = peers[0];
+  EXPECT_EQ(peer.name, "robot_0");
+  EXPECT_EQ(peer.id, team[0].id());
+  EXPECT_TRUE(peer.neighbour);
+  EXPECT_TRUE(peer.proven);
+  EXPECT_FALSE(peer.duplicate);
+  EXPECT_NEAR(peer.odometry.pose.x, 1.0, 0.006);
+  EXPECT_NEAR(peer.odometry.twist.speed, 0.4, 0.011);
+  EXPECT_NEAR(peer.footprint.length, 0.8, 1e-9);
+  EXPECT_NEAR(peer.limits.turn_rate, 1.57, 0.026);
+  EXPECT_EQ(peer.state, DriveState::kDriving);
+  EXPECT_NEAR(peer.heard, 1.0, 0.01);
+  EXPECT_GT(peer.heard_there, 0.9);
+  EXPECT_EQ(team.eventCount(1, ExchangeEventKind::kPeerAppeared), 1);
+}
+
+TEST(Exchange, clocksAgreeWithinTwentyMilliseconds) {
+  for (const double loss : {0.0, 0.5, 0.8}) {
+    Team team = standingTeam(2, 5);
+    team.connectAll();
+    team.loss = loss;
+    team.run(20.0, [&](std::size_t i) { team[i].setOdometry(standing({}, team.timeOf(i)), DriveState::kStopped); });
+    const PeerState peer = team[1].peers(team.timeOf(1)).front();
+    EXPECT_TRUE(peer.clock_known) << loss;
+    EXPECT_LT(peer.clock_error, 0.035) << loss;
+    // The pose was taken at the team's time of the beacon; what the other makes of it is off by the clock alone.
+    const double age = team.timeOf(1) - peer.odometry.stamp;
+    EXPECT_LT(std::abs(age - std::round(age / 0.05) * 0.05), 0.02) << loss;
+  }
+}
+
+TEST(Exchange, aTrajectoryArrivesOnTheOwnClock) {
+  Team team = standingTeam(2);
+  team.connectAll();
+  team.run(2.0);
+  std::vector<TrajectoryPoint> points;
+  const double start = team.timeOf(0);
+  for (int i = 0; i <= 60; ++i) {
+    const double t = 0.05 * i, speed = t < 2.0 ? 1.0 : std::max(0.0, 3.0 - t);
+    const double x = t < 2.0 ? t : 2.0 + (t - 2.0) - 0.5 * (t - 2.0) * (t - 2.0);
+    points.push_back({start + t, {x, 0.0, 0.0}, {speed, 0.0}});
+  }
+  team[0].setTrajectory(SampledTrajectory(points), DriveState::kDriving);
+  team.run(0.15);
+  const auto received = team[1].trajectoryOf(team[0].id(), team.timeOf(1));
+  ASSERT_TRUE(received);
+  EXPECT_EQ(received->state, DriveState::kDriving);
+  for (double t = 0.2; t < 3.0; t += 0.1) {
+    const double own_time = start + t - team.members[0].clock_offset + team.members[1].clock_offset;
+    EXPECT_NEAR(received->trajectory.at(own_time).pose.x, SampledTrajectory(points).at(start + t).pose.x, 0.04) << t;
+  }
+  EXPECT_NEAR(received->trajectory.points()[2].twist.speed, 1.0, 0.1);
+  EXPECT_EQ(received->trajectory.points().back().twist.speed, 0.0);
+  EXPECT_FALSE(team[0].trajectoryOf(team[1].id(), team.timeOf(0)));
+}
+
+TEST(Exchange, trajectoriesGoOutWhenTheyChangeAndNotTooOften) {
+  Team team = standingTeam(1);
+  const auto count = [&](double step) {
+    const std::int64_t before = team[0].counters().packets_sent;
+    double x = 0.0;
+    team.run(10.0, [&](std::size_t) {
+      x += step;
+      team[0].setTrajectory(SampledTrajectory::standing({x, 0.0, 0.0}, team.timeOf(0)), DriveState::kDriving);
+    });
+    return static_cast<double>(team[0].counters().packets_sent - before) / 10.0;
+  };
+  const double still = count(0.0), moving = count(0.1);
+  EXPECT_LE(still, 3.5) << "with two beacons a second";
+  EXPECT_GE(still, 2.0);
+  EXPECT_LE(moving, 6.2);
+  EXPECT_GE(moving, 3.9);
+  const SectionBytes& sections = team[0].counters().sections_sent;
+  EXPECT_GT(sections.trajectory, 0U);
+}
+
+TEST(Exchange, conflictsAndObservationsArrive) {
+  Team team = standingTeam(2);
+  team.connectAll();
+  team.run(1.0);
+  Conflict claim;
+  claim.peer = team[1].id();
+  claim.kind = ConflictKind::kYield;
+  claim.cost = 12.5;
+  claim.lease = 3.0;
+  claim.round = 4;
+  claim.place = Eigen::Vector2d(1.0, -2.0);
+  EXPECT_TRUE(team[0].setConflicts({claim}));
+  EXPECT_TRUE(team[0].setObservations({0.0, {1.0, 1.0, 0.1}, {{2.0, 0.5, 0.4}}}, team.timeOf(0)));
+  team.run(0.25);
+  const auto conflicts = team[1].conflictsOf(team[0].id());
+  ASSERT_TRUE(conflicts);
+  ASSERT_EQ(conflicts->conflicts.size(), 1U);
+  EXPECT_EQ(conflicts->conflicts[0].kind, ConflictKind::kYield);
+  EXPECT_NEAR(conflicts->conflicts[0].place->y(), -2.0, 0.006);
+  const auto observations = team[1].observationsOf(team[0].id(), team.timeOf(1));
+  ASSERT_TRUE(observations);
+  ASSERT_EQ(observations->blobs.size(), 1U);
+  EXPECT_NEAR(observations->blobs[0].range, 2.0, 0.003);
+  EXPECT_NEAR(observations->stamp, team.timeOf(1) - 0.25, 0.02);
+  team[0].setConflicts({});
+  team.run(0.5);
+  EXPECT_TRUE(team[1].conflictsOf(team[0].id())->conflicts.empty());
+  EXPECT_FALSE(team[1].conflictsOf(99));
+  EXPECT_FALSE(team[0].observationsOf(team[1].id(), team.timeOf(0)));
+}
+
+TEST(Exchange, whatIsNotFiniteIsRefusedAndCounted) {
+  Team team = standingTeam(1);
+  const double nan = std::nan("");
+  Exchange& exchange = team[0];
+  EXPECT_FALSE(exchange.setOdometry(standing({nan, 0.0, 0.0}, 1.0), DriveState::kStopped));
+  EXPECT_FALSE(exchange.setTrajectory(SampledTrajectory::standing({0.0, nan, 0.0}, 1.0), DriveState::kStopped));
+  Conflict conflict;
+  conflict.cost = nan;
+  EXPECT_FALSE(exchange.setConflicts({conflict}));
+  EXPECT_FALSE(exchange.setConflicts(std::vector<Conflict>(20)));
+  EXPECT_FALSE(exchange.setObservations({0.0, {}, {{nan, 0.0, 0.0}}}, 1.0));
+  EXPECT_FALSE(exchange.publishKeyframe(Bytes(1000), {}, 1.0, 1.0));
+  EXPECT_FALSE(exchange.setPeerPose(5, PeerPose(), 1.0)) << "no covariance";
+  EXPECT_FALSE(exchange.setPeerPose(exchange.id(), confirmedAt(1.0), 1.0));
+  EXPECT_FALSE(exchange.moveAnchor(77, {}, 1.0));
+  EXPECT_FALSE(exchange.contest({5, 1, 1}, 1.0));
+  EXPECT_EQ(exchange.counters().inputs_refused, 9);
+  exchange.publishContours({{1, {{nan, 0.0}, {1.0, 1.0}}, false, false, 0.0}, {2, {{0.0, 0.0}}, false, false, 0.0}}, 1.0);
+  EXPECT_EQ(exchange.counters().contours_refused, 2);
+  EXPECT_TRUE(exchange.contoursOf(exchange.id()).empty());
+}
+
+TEST(Exchange, keyframesReachNeighboursWhosePoseIsUnknown) {
+  Team team = standingTeam(3);
+  team.connect(0, 1);
+  team.connect(0, 2);
+  for (int i = 0; i < 10; ++i) {
+    const auto id =
+        team[0].publishKeyframe(Bytes(150, static_cast<std::uint8_t>(i)), {1.0 * i, 0.0, 0.1}, team.timeOf(0), team.timeOf(0));
+    EXPECT_EQ(id, static_cast<std::uint32_t>(i + 1));
+    team.run(0.5);
+  }
+  team.run(4.0);
+  const auto keyframes = team[1].keyframesOf(team[0].id(), team.timeOf(1));
+  ASSERT_EQ(keyframes.size(), 8U);
+  EXPECT_EQ(keyframes.back().id, 10U);
+  EXPECT_EQ(keyframes.back().descriptor, Bytes(150, 9));
+  EXPECT_NEAR(keyframes.back().pose.x, 9.0, 0.003);
+  EXPECT_NEAR(keyframes.back().stamp, team.timeOf(1) - 4.5, 0.02);
+  EXPECT_TRUE(team[1].keyframesOf(team[2].id(), team.timeOf(1)).empty());
+}
+
+TEST(Exchange, aRestartedPeerIsTakenAsNew) {
+  Team team = standingTeam(2);
+  team.connectAll();
+  team[0].publishContours({wall(1, 0.0, 1.0, 2.0)}, team.timeOf(0));
+  team.run(3.0);
+  EXPECT_EQ(team[1].contoursOf(team[0].id()).size(), 1U);
+  const std::size_t again = team.add(0.0, 2, "robot_0");
+  team[again].setOdometry(standing({}, team.timeOf(again)), DriveState::kStopped);
+  team.members[0].on = false;
+  team.connect(1, again);
+  team.run(2.0);
+  EXPECT_EQ(team.eventCount(1, ExchangeEventKind::kPeerRestarted), 1);
+  EXPECT_TRUE(team[1].contoursOf(team[0].id()).empty());
+  team.members[0].on = true;
+  team.run(2.0);
+  EXPECT_GT(team[1].counters().dropped_boot, 0);
+  EXPECT_EQ(team.eventCount(1, ExchangeEventKind::kDuplicateName), 1) << "both send";
+  EXPECT_TRUE(team[1].peers(team.timeOf(1)).front().duplicate);
+}
+
+TEST(Exchange, aNamesakeIsNoticed) {
+  Team team = standingTeam(1);
+  const std::size_t twin = team.add(5.0, 1, "robot_0");
+  team[twin].setOdometry(standing({}, team.timeOf(twin)), DriveState::kStopped);
+  team.connect(0, twin);
+  team.run(3.0);
+  EXPECT_EQ(team.eventCount(0, ExchangeEventKind::kDuplicateName), 1);
+  EXPECT_EQ(team.eventCount(twin, ExchangeEventKind::kDuplicateName), 1);
+}
+
+TEST(Exchange, whoIsSilentIsForgotten) {
+  Team team = standingTeam(2);
+  team.connectAll();
+  team[0].publishContours({wall(1, 0.0, 1.0, 2.0)}, team.timeOf(0));
+  team.run(3.0);
+  team.cut(0, 1);
+  team.run(5.0);
+  EXPECT_FALSE(team[1].peers(team.timeOf(1)).front().neighbour);
+  team.run(60.0);
+  EXPECT_TRUE(team[1].peers(team.timeOf(1)).empty());
+  EXPECT_EQ(team.eventCount(1, ExchangeEventKind::kPeerLost), 1);
+  EXPECT_EQ(team[1].contoursOf(team[0].id()).size(), 1U) << "its map is still good";
+  team.now += 1000.0;
+  team.run(1.0);
+  EXPECT_TRUE(team[1].contoursOf(team[0].id()).empty());
+}
+
+TEST(Exchange, theSameCallsGiveTheSameBytes) {
+  const auto play = [] {
+    Team team = standingTeam(3, 9);
+    team.connectAll();
+    team.loss = 0.5;
+    team[0].publishContours({wall(1, 0.0, 1.0, 2.0), wall(2, 0.0, 2.0, 2.0)}, team.timeOf(0));
+    team.run(5.0);
+    return team.sent;
+  };
+  EXPECT_EQ(play(), play());
+}
+
+}  // namespace parley
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
