@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "peer_localizer.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace parley {
+namespace {
+
+constexpr double kWeighPeriod = 0.2;       // [s] own scans alone are reason enough after this time
+constexpr double kTentativeMemory = 30.0;  // [s] without new evidence, what is not confirmed is forgotten
+constexpr double kBlindFactor = 2.0;       // [-] where surfaces say nothing, sightings must say so much more
+constexpr double kStepLimit = 20.0;        // [m] a longer step between two reports is no way driven
+
+}  // namespace
+
+PeerLocalizer::PeerLocalizer(const RelativeLocalizationOptions& options, std::string name)
+    : options_(options), name_(std::move(name)), hypotheses_(options) {}
+
+void PeerLocalizer::addMotion(const MotionReport& motion) {
+  if (!side_.motion.empty() && motion.stamp > side_.motion.latest().stamp) {
+    const double step = (motion.T_odom_base.position() - side_.motion.latest().pose.position()).norm();
+    travel_ += std::min(step, kStepLimit);
+  }
+  side_.footprint = motion.footprint;
+  side_.motion.add({motion.stamp, motion.T_odom_base, motion.twist.speed, motion.twist.turn_rate, true});
+  changed_ = true;
+}
+
+void PeerLocalizer::addSights(const SightReport& report) {
+  const auto is_same = [&](const SightRecord& other) { return std::abs(other.stamp - report.stamp) < 1e-3; };
+  if (std::any_of(side_.sights.begin(), side_.sights.end(), is_same)) return;
+  SightRecord record;
+  record.stamp = report.stamp;
+  record.T_odom_scan = report.T_odom_scan;
+  record.blobs = report.blobs;
+  side_.add(std::move(record), static_cast<std::size_t>(options_.max_sights));
+  changed_ = true;
+}
+
+void PeerLocalizer::addKeyframe(int id, double stamp, const Pose2& T_odom_scan, const PolarScan& scan) {
+  const auto is_same = [&](const PlacedScan& other) { return other.id == id; };
+  if (std::any_of(keyframes_.begin(), keyframes_.end(), is_same)) return;
+  const auto later = [](double time, const PlacedScan& other) { return time < other.stamp; };
+  keyframes_.insert(std::upper_bound(keyframes_.begin(), keyframes_.end(), stamp, later), {id, stamp, T_odom_scan, scan});
+  if (keyframes_.size() > static_cast<std::size_t>(options_.peer_keyframes)) keyframes_.pop_front();
+  surfaces_ = std::make_shared<SurfaceMap>(std::vector<PlacedScan>(keyframes_.begin(), keyframes_.end()));
+  SightRecord record;
+  record.stamp = stamp;
+  record.T_odom_scan = T_odom_scan;
+  record.scan = scan;
+  record.has_scan = true;
+  side_.add(std::move(record), static_cast<std::size_t>(options_.max_sights));
+  changed_ = true;
+}
+
+void PeerLocalizer::weigh(double now, const OwnView& own, RelativeLocalizationCounters& counters) {
+  side_.motion.forgetBefore(now - options_.sight_window - 2.0);
+  side_.forgetBefore(now - options_.sight_window);
+  if (!changed_ && now - last_weighed_ < kWeighPeriod) return;
+  if (own.side.sights.empty() || side_.motion.empty()) return;
+  last_weighed_ = now;
+  changed_ = false;
+  if (held_) {
+    const Eigen::Vector2d here = own.side.sights.back().T_odom_scan.position();
+    hypotheses_.suggest(held_->T_odom_peerodom.pose, here, false);
+  }
+  hypotheses_.propose(own.side, side_, newest_used_);
+  if (!side_.sights.empty()) newest_used_ = std::max(newest_used_, side_.sights.back().stamp);
+  hypotheses_.weigh(own.side, side_);
+  verdict_ = checkBest(own, counters);
+}
+
+SurfaceVerdict PeerLocalizer::checkBest(const OwnView& own, RelativeLocalizationCounters& counters) {
+  if (hypotheses_.empty() || !hypotheses_.best().fit.isMutual(2, 2) || !own.surfaces || !surfaces_) return {};
+  SightFit fit = hypotheses_.best().fit;
+  ++counters.matches;
+  const PoseInformation pose{fit.pose.T_odom_peerodom, fit.center, fit.covariance.inverse()};
+  const SurfaceVerdict verdict = checkSurfaces(*own.surfaces, *surfaces_, pose, options_);
+  if (verdict.contradicts) {
+    hypotheses_.dropBest();
+    return {};
+  }
+  if (verdict.agrees) {
+    const SightFit fused = fitSights(own.side, side_, fit.pose, verdict.estimate, options_);
+    if (fused.solved) hypotheses_.replaceBest(fused);
+  }
+  return verdict;
+}
+
+bool PeerLocalizer::isConfirmable(const SightFit& fit) const {
+  if (!fit.isMutual(options_.confirm_own_sights, options_.confirm_peer_sights) || fit.contradictions > 0) return false;
+  if (fit.residual > options_.confirm_residual || fit.span() < options_.confirm_span) return false;
+  const double deviation = std::sqrt(std::max(fit.covariance(0, 0), fit.covariance(1, 1)));
+  if (deviation > options_.confirm_deviation || std::sqrt(fit.covariance(2, 2)) > options_.confirm_rotation) return false;
+  if (hypotheses_.hasRival()) return false;
+  const double factor = verdict_.agrees ? (verdict_.observed ? 0.5 : 1.0) : kBlindFactor;
+  return fit.travel >= options_.confirm_travel * std::max(factor, 1.0) &&
+         fit.distinction >= options_.confirm_distinction * factor;
+}
+
+void PeerLocalizer::hold(PeerState state, const SightFit& fit, const OwnView& own) {
+  const Pose2& T = fit.pose.T_odom_peerodom;
+  held_ = HeldPose{{T, covarianceOfPose(T, fit.center, fit.covariance)},
+                   fit.last,
+                   own.travel,
+                   travel_,
+                   fit.own_sights + fit.peer_sights,
+                   fit.pose.time_offset};
+  state_ = state;
+}
+
+void PeerLocalizer::judge(double now, const OwnView& own, bool blocked, RelativeLocalizationCounters& counters) {
+  if (held_) {
+    const double age = now - held_->stamp;
+    const bool is_confirmed = state_ == PeerState::kConfirmed;
+    if (age > (is_confirmed ? options_.expire_age : kTentativeMemory)) {
+      held_.reset();
+      state_ = PeerState::kUnknown;
+    } else if (is_confirmed) {
+      const Eigen::Vector2d here =
+          own.side.sights.empty() ? Eigen::Vector2d(0.0, 0.0) : own.side.sights.back().T_odom_scan.position();
+      const Eigen::Matrix3d covariance = covarianceAbout(grown(own), here);
+      if (std::sqrt(std::max(covariance(0, 0), covariance(1, 1))) > options_.expire_deviation) state_ = PeerState::kTentative;
+    }
+  }
+  if (last_weighed_ == now) reconsider(own, blocked, counters);
+}
+
+void PeerLocalizer::reconsider(const OwnView& own, bool blocked, RelativeLocalizationCounters& counters) {
+  if (hypotheses_.empty()) return;
+  const SightFit& fit = hypotheses_.best().fit;
+  const bool is_confirmable = !blocked && isConfirmable(fit);
+  if (state_ == PeerState::kConfirmed) {
+    const bool is_alike = isAlike(held_->T_odom_peerodom.pose, fit.pose.T_odom_peerodom, fit.center);
+    for (const Hypothesis& hypothesis : hypotheses_.all()) {
+      if (hypothesis.remembered && hypothesis.fit.contradictions_in_row >= options_.demote_contradictions) {
+        state_ = PeerState::kCandidate;
+        ++counters.demotions;
+        return;
+      }
+    }
+    if (is_confirmable && !is_alike) {  // the world says otherwise now
+      ++counters.demotions;
+      hold(PeerState::kTentative, fit, own);
+    } else if (is_alike && fit.isMutual(2, 2) && verdict_.agrees && fit.contradictions == 0) {
+      hold(PeerState::kConfirmed, fit, own);
+    }
+    return;
+  }
+  if (is_confirmable) {
+    hold(PeerState::kConfirmed, fit, own);
+  } else if (fit.isMutual(2, 2) && fit.contradictions == 0 && !hypotheses_.hasRival() && !blocked) {
+    hold(PeerState::kTentative, fit, own);
+  } else if (hypotheses_.best().surface_matches >= 2) {
+    if (fit.solved) hold(PeerState::kTentative, fit, own);
+  } else if (fit.isMutual(1, 1) && state_ != PeerState::kTentative) {
+    hold(PeerState::kCandidate, fit, own);
+  }
+}
+
+PoseEstimate PeerLocalizer::grown(const OwnView& own) const {
+  PoseEstimate estimate = held_->T_odom_peerodom;
+  const double way = std::max(own.travel - held_->own_travel, 0.0) + std::max(travel_ - held_->peer_travel, 0.0);
+  const double spread = options_.drift_translation * options_.drift_translation * way;
+  // A heading error acts over the way driven since, about the place where it arose.
+  const double turn = options_.drift_rotation * options_.drift_rotation * way;
+  const Eigen::Vector3d drift(spread + 0.25 * turn * way * way, spread + 0.25 * turn * way * way, turn);
+  const Eigen::Vector2d here =
+      own.side.sights.empty() ? Eigen::Vector2d(0.0, 0.0) : own.side.sights.back().T_odom_scan.position();
+  estimate.covariance += covarianceOfPose(estimate.pose, here, drift.asDiagonal());
+  return estimate;
+}
+
+PeerEstimate PeerLocalizer::estimate(double now, const OwnView& own) const {
+  PeerEstimate result;
+  result.peer = name_;
+  if (!held_ || state_ == PeerState::kUnknown) return result;
+  result.state = state_;
+  result.T_odom_peerodom = grown(own);
+  result.age = std::max(now - held_->stamp, 0.0);
+  result.support = held_->support;
+  result.time_offset = held_->time_offset;
+  return result;
+}
+
+std::optional<PeerLocalizer::Claim> PeerLocalizer::claim(double now) const {
+  if (hypotheses_.empty() || !hypotheses_.best().fit.isMutual(2, 1)) return std::nullopt;
+  const SightFit& fit = hypotheses_.best().fit;
+  const auto motion = side_.motion.at(std::min(now, fit.last) + fit.pose.time_offset);
+  if (!motion || now - fit.last > 1.0) return std::nullopt;
+  return Claim{fit.pose.T_odom_peerodom * motion->pose.position(), fit.score(), state_ == PeerState::kConfirmed};
+}
+
+std::shared_ptr<const SurfaceMap> PeerLocalizer::surfacesToSearch() const {
+  const bool is_seen = !hypotheses_.empty() && hypotheses_.best().fit.isMutual(1, 1);
+  return is_seen || state_ == PeerState::kConfirmed ? nullptr : surfaces_;
+}
+
+void PeerLocalizer::setSearched(double now, const std::optional<Pose2>& found, const OwnView& own) {
+  last_search_ = now;
+  if (!found || own.side.sights.empty()) return;
+  hypotheses_.suggest(*found, own.side.sights.back().T_odom_scan.position(), true);
+  changed_ = true;
+}
+
+std::optional<RelativeEdge> PeerLocalizer::edge(const std::string& own_name, const OwnView& own) const {
+  if (state_ != PeerState::kConfirmed || !held_) return std::nullopt;
+  const auto here = own.side.motion.at(held_->stamp);
+  const auto there = side_.motion.at(held_->stamp + held_->time_offset);
+  if (!here || !there) return std::nullopt;
+  RelativeEdge edge{own_name, name_, held_->stamp, here->pose, there->pose, held_->own_travel, held_->peer_travel, {}};
+  const PoseEstimate exact_back{here->pose.inverse(), Covariance3::Zero()}, exact_there{there->pose, Covariance3::Zero()};
+  edge.T_from_to = compose(compose(exact_back, held_->T_odom_peerodom), exact_there);
+  return edge;
+}
+
+}  // namespace parley
