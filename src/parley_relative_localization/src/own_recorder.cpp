@@ -63,21 +63,20 @@ void OwnRecorder::forgetBefore(double stamp) {
 
 std::vector<Keyframe> OwnRecorder::keyframes(std::size_t count) const {
   std::vector<Keyframe> result;
-  const std::size_t first = keyframes_.size() - std::min(count, keyframes_.size());
-  for (std::size_t i = first; i < keyframes_.size(); ++i) {
-    result.push_back({keyframes_[i].id, keyframes_[i].stamp, keyframes_[i].T_odom_scan, encodeScan(keyframes_[i].scan)});
+  for (auto it = keyframes_.rbegin(); it != keyframes_.rend() && result.size() < count; ++it) {
+    result.push_back({it->id, it->stamp, it->T_odom_scan, encodeScan(it->scan)});
   }
   return result;
 }
 
-SightReport OwnRecorder::report() const {
-  SightReport report;
-  if (view_.side.sights.empty()) return report;
-  const SightRecord& newest = view_.side.sights.back();
-  report.stamp = newest.stamp;
-  report.T_odom_scan = newest.T_odom_scan;
-  report.blobs = newest.blobs;
-  return report;
+std::vector<SightReport> OwnRecorder::reports(double since, std::size_t count) const {
+  std::vector<SightReport> result;
+  const auto& sights = view_.side.sights;
+  for (auto it = sights.rbegin(); it != sights.rend() && it->stamp > since && result.size() < count; ++it) {
+    if (!it->blobs.empty()) result.push_back({it->stamp, it->T_odom_scan, it->blobs});
+  }
+  std::reverse(result.begin(), result.end());
+  return result;
 }
 
 }  // namespace parley

@@ -21,9 +21,9 @@ class OwnRecorder {
   void forgetBefore(double stamp);
 
   const OwnView& view() const { return view_; }
-  /// The newest ones, oldest first.
+  /// The newest ones, newest first.
   std::vector<Keyframe> keyframes(std::size_t count) const;
-  SightReport report() const;
+  std::vector<SightReport> reports(double since, std::size_t count) const;
 
  private:
   bool isKeyframeDue(const Pose2& T_odom_scan) const;

@@ -126,7 +126,9 @@ std::vector<Keyframe> RelativeLocalization::keyframes() const {
   return core_->own.keyframes(static_cast<std::size_t>(core_->options.sent_keyframes));
 }
 
-SightReport RelativeLocalization::sights() const { return core_->own.report(); }
+std::vector<SightReport> RelativeLocalization::sights(double since) const {
+  return core_->own.reports(since, static_cast<std::size_t>(core_->options.max_reports));
+}
 
 std::vector<RelativeEdge> RelativeLocalization::edges() const {
   std::vector<RelativeEdge> edges;

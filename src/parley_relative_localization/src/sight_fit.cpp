@@ -2,6 +2,7 @@
 #include "sight_fit.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 

@@ -59,10 +59,11 @@ class RelativeLocalization {
   /// Weighs what came since the last step. Estimates are sorted by name.
   std::vector<PeerEstimate> step(double now);
 
-  /// What a peer without a confirmed pose should be sent.
+  /// What a peer without a confirmed pose should be sent, newest first.
   std::vector<Keyframe> keyframes() const;
-  /// Blobs of the newest scan; to be sent a few times a second while a peer is near.
-  SightReport sights() const;
+  /// The newest scans after `since` in which there were blobs, at most `max_reports`, oldest first; to be sent a few times a
+  /// second while a peer is near.
+  std::vector<SightReport> sights(double since) const;
   /// Poses that this robot measured itself and holds for confirmed.
   std::vector<RelativeEdge> edges() const;
   RelativeLocalizationCounters counters() const;
