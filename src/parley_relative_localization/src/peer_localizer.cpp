@@ -12,6 +12,7 @@ namespace {
 constexpr double kWeighPeriod = 0.2;       // [s] own scans alone are reason enough after this time
 constexpr double kTentativeMemory = 30.0;  // [s] without new evidence, what is not confirmed is forgotten
 constexpr double kBlindFactor = 2.0;       // [-] where surfaces say nothing, sightings must say so much more
+constexpr int kMostChecks = 3;             // [-] hypotheses whose surfaces are compared at a time
 constexpr double kStepLimit = 20.0;        // [m] a longer step between two reports is no way driven
 
 }  // namespace
@@ -74,20 +75,23 @@ void PeerLocalizer::weigh(double now, const OwnView& own, RelativeLocalizationCo
 }
 
 SurfaceVerdict PeerLocalizer::checkBest(const OwnView& own, RelativeLocalizationCounters& counters) {
-  if (hypotheses_.empty() || !hypotheses_.best().fit.isMutual(2, 2) || !own.surfaces || !surfaces_) return {};
-  SightFit fit = hypotheses_.best().fit;
-  ++counters.matches;
-  const PoseInformation pose{fit.pose.T_odom_peerodom, fit.center, fit.covariance.inverse()};
-  const SurfaceVerdict verdict = checkSurfaces(*own.surfaces, *surfaces_, pose, options_);
-  if (verdict.contradicts) {
-    hypotheses_.dropBest();
-    return {};
+  if (!own.surfaces || !surfaces_) return {};
+  for (int checked = 0; checked < kMostChecks && !hypotheses_.empty() && hypotheses_.best().fit.isMutual(2, 2); ++checked) {
+    const SightFit fit = hypotheses_.best().fit;
+    ++counters.matches;
+    const PoseInformation pose{fit.pose.T_odom_peerodom, fit.center, fit.covariance.inverse()};
+    const SurfaceVerdict verdict = checkSurfaces(*own.surfaces, *surfaces_, pose, options_);
+    if (verdict.contradicts) {
+      hypotheses_.dropBest();
+      continue;
+    }
+    if (verdict.agrees) {
+      const SightFit fused = fitSights(own.side, side_, fit.pose, verdict.estimate, options_);
+      if (fused.solved) hypotheses_.replaceBest(fused);
+    }
+    return verdict;
   }
-  if (verdict.agrees) {
-    const SightFit fused = fitSights(own.side, side_, fit.pose, verdict.estimate, options_);
-    if (fused.solved) hypotheses_.replaceBest(fused);
-  }
-  return verdict;
+  return {};
 }
 
 bool PeerLocalizer::isConfirmable(const SightFit& fit) const {
@@ -95,7 +99,7 @@ bool PeerLocalizer::isConfirmable(const SightFit& fit) const {
   if (fit.residual > options_.confirm_residual || fit.span() < options_.confirm_span) return false;
   const double deviation = std::sqrt(std::max(fit.covariance(0, 0), fit.covariance(1, 1)));
   if (deviation > options_.confirm_deviation || std::sqrt(fit.covariance(2, 2)) > options_.confirm_rotation) return false;
-  if (hypotheses_.hasRival()) return false;
+  if (hypotheses_.hasRival() || !verdict_.asked) return false;
   const double factor = verdict_.agrees ? (verdict_.observed ? 0.5 : 1.0) : kBlindFactor;
   return fit.travel >= options_.confirm_travel * std::max(factor, 1.0) &&
          fit.distinction >= options_.confirm_distinction * factor;

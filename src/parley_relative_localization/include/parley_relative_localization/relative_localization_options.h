@@ -37,7 +37,7 @@ struct RelativeLocalizationOptions {
   double confirm_span = 0.3;         // [s]
   double confirm_travel = 0.8;       // [m]
   double confirm_distinction = 0.5;  // [m]
-  double confirm_residual = 1.6;     // [-]
+  double confirm_residual = 1.0;     // [-]
   double confirm_deviation = 0.12;   // [m]
   double confirm_rotation = 0.03;    // [rad]
   double rival_share = 0.5;          // [-]
