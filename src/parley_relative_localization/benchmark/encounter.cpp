@@ -160,7 +160,8 @@ class Run {
       next_message_ = now + phase_ + kMessagePeriod;
       Message message;
       message.arrival = now + kDelay;
-      message.motion = {now + offset_, movers_[1].odometry(), movers_[1].twist(), movers_[1].footprint()};
+      message.motion = {now + offset_, movers_[1].odometry(), movers_[1].twist(), movers_[1].footprint(),
+                        localizers_[1].travel()};
       message.sights = localizers_[1].sights(reported_);
       if (!message.sights.empty()) reported_ = message.sights.back().stamp;
       if (state_ != PeerState::kConfirmed) {

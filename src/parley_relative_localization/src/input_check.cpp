@@ -42,7 +42,8 @@ bool isPlausible(const ObstacleScan& scan) {
 
 bool isPlausible(const MotionReport& motion) {
   return std::isfinite(motion.stamp) && isPlausible(motion.T_odom_base) && isWithin(motion.twist.speed, kFastest) &&
-         isWithin(motion.twist.turn_rate, kFastest) && isPlausible(motion.footprint);
+         isWithin(motion.twist.turn_rate, kFastest) && isPlausible(motion.footprint) && isWithin(motion.travel, 1e7) &&
+         motion.travel >= 0.0;
 }
 
 bool isPlausible(const SightReport& report) {

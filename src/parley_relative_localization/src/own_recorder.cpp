@@ -73,7 +73,9 @@ std::vector<SightReport> OwnRecorder::reports(double since, std::size_t count) c
   std::vector<SightReport> result;
   const auto& sights = view_.side.sights;
   for (auto it = sights.rbegin(); it != sights.rend() && it->stamp > since && result.size() < count; ++it) {
-    if (!it->blobs.empty()) result.push_back({it->stamp, it->T_odom_scan, it->blobs});
+    if (it->blobs.empty()) continue;
+    const auto told = std::min(it->blobs.size(), static_cast<std::size_t>(options_.max_told_blobs));
+    result.push_back({it->stamp, it->T_odom_scan, {it->blobs.begin(), it->blobs.begin() + static_cast<long>(told)}});
   }
   std::reverse(result.begin(), result.end());
   return result;

@@ -12,6 +12,7 @@ namespace {
 constexpr double kWeighPeriod = 0.2;       // [s] own scans alone are reason enough after this time
 constexpr double kTentativeMemory = 30.0;  // [s] without new evidence, what is not confirmed is forgotten
 constexpr double kBlindFactor = 2.0;       // [-] where surfaces say nothing, sightings must say so much more
+constexpr double kReason = 16.0;           // [-] squared deviations that a held pose is moved by at most
 constexpr int kMostChecks = 3;             // [-] hypotheses whose surfaces are compared at a time
 constexpr double kStepLimit = 20.0;        // [m] a longer step between two reports is no way driven
 
@@ -21,11 +22,8 @@ PeerLocalizer::PeerLocalizer(const RelativeLocalizationOptions& options, std::st
     : options_(options), name_(std::move(name)), hypotheses_(options) {}
 
 void PeerLocalizer::addMotion(const MotionReport& motion) {
-  if (!side_.motion.empty() && motion.stamp > side_.motion.latest().stamp) {
-    const double step = (motion.T_odom_base.position() - side_.motion.latest().pose.position()).norm();
-    travel_ += std::min(step, kStepLimit);
-  }
   side_.footprint = motion.footprint;
+  if (side_.motion.empty() || motion.stamp >= side_.motion.latest().stamp) travel_ = motion.travel;
   side_.motion.add({motion.stamp, motion.T_odom_base, motion.twist.speed, motion.twist.turn_rate, true});
   changed_ = true;
 }
@@ -57,16 +55,19 @@ void PeerLocalizer::addKeyframe(int id, double stamp, const Pose2& T_odom_scan, 
   changed_ = true;
 }
 
-void PeerLocalizer::weigh(double now, const OwnView& own, RelativeLocalizationCounters& counters) {
+void PeerLocalizer::weigh(double now, const OwnView& own, const std::optional<Pose2>& known,
+                          RelativeLocalizationCounters& counters) {
   side_.motion.forgetBefore(now - options_.sight_window - 2.0);
   side_.forgetBefore(now - options_.sight_window);
   if (!changed_ && now - last_weighed_ < kWeighPeriod) return;
   if (own.side.sights.empty() || side_.motion.empty()) return;
   last_weighed_ = now;
   changed_ = false;
+  const Eigen::Vector2d here = own.side.sights.back().T_odom_scan.position();
   if (held_) {
-    const Eigen::Vector2d here = own.side.sights.back().T_odom_scan.position();
     hypotheses_.suggest(held_->T_odom_peerodom.pose, here, false);
+  } else if (known) {
+    hypotheses_.suggest(*known, here, false);
   }
   hypotheses_.propose(own.side, side_, newest_used_);
   if (!side_.sights.empty()) newest_used_ = std::max(newest_used_, side_.sights.back().stamp);
@@ -94,11 +95,15 @@ SurfaceVerdict PeerLocalizer::checkBest(const OwnView& own, RelativeLocalization
   return {};
 }
 
-bool PeerLocalizer::isConfirmable(const SightFit& fit) const {
-  if (!fit.isMutual(options_.confirm_own_sights, options_.confirm_peer_sights) || fit.contradictions > 0) return false;
-  if (fit.residual > options_.confirm_residual || fit.span() < options_.confirm_span) return false;
+bool PeerLocalizer::isGood(const SightFit& fit) const {
   const double deviation = std::sqrt(std::max(fit.covariance(0, 0), fit.covariance(1, 1)));
-  if (deviation > options_.confirm_deviation || std::sqrt(fit.covariance(2, 2)) > options_.confirm_rotation) return false;
+  return fit.solved && fit.contradictions == 0 && fit.residual <= options_.confirm_residual &&
+         deviation <= options_.confirm_deviation && std::sqrt(fit.covariance(2, 2)) <= options_.confirm_rotation;
+}
+
+bool PeerLocalizer::isConfirmable(const SightFit& fit) const {
+  if (!isGood(fit) || !fit.isMutual(options_.confirm_own_sights, options_.confirm_peer_sights)) return false;
+  if (fit.span() < options_.confirm_span) return false;
   if (hypotheses_.hasRival() || !verdict_.asked) return false;
   const double factor = verdict_.agrees ? (verdict_.observed ? 0.5 : 1.0) : kBlindFactor;
   return fit.travel >= options_.confirm_travel * std::max(factor, 1.0) &&
@@ -149,7 +154,7 @@ void PeerLocalizer::reconsider(const OwnView& own, bool blocked, RelativeLocaliz
     if (is_confirmable && !is_alike) {  // the world says otherwise now
       ++counters.demotions;
       hold(PeerState::kTentative, fit, own);
-    } else if (is_alike && fit.isMutual(2, 2) && verdict_.agrees && fit.contradictions == 0) {
+    } else if (is_alike && isGood(fit) && fit.isMutual(3, 3) && verdict_.agrees && isWithinReason(fit, own)) {
       hold(PeerState::kConfirmed, fit, own);
     }
     return;
@@ -158,8 +163,8 @@ void PeerLocalizer::reconsider(const OwnView& own, bool blocked, RelativeLocaliz
     hold(PeerState::kConfirmed, fit, own);
   } else if (fit.isMutual(2, 2) && fit.contradictions == 0 && !hypotheses_.hasRival() && !blocked) {
     hold(PeerState::kTentative, fit, own);
-  } else if (hypotheses_.best().surface_matches >= 2) {
-    if (fit.solved) hold(PeerState::kTentative, fit, own);
+  } else if (hypotheses_.best().surface_matches >= 2 && fit.contradictions == 0) {
+    hold(PeerState::kTentative, fit, own);
   } else if (fit.isMutual(1, 1) && state_ != PeerState::kTentative) {
     hold(PeerState::kCandidate, fit, own);
   }
@@ -198,13 +203,17 @@ std::optional<PeerLocalizer::Claim> PeerLocalizer::claim(double now) const {
   return Claim{fit.pose.T_odom_peerodom * motion->pose.position(), fit.score(), state_ == PeerState::kConfirmed};
 }
 
-std::shared_ptr<const SurfaceMap> PeerLocalizer::surfacesToSearch() const {
+std::shared_ptr<const SurfaceMap> PeerLocalizer::surfacesToSearch(const OwnView& own) const {
   const bool is_seen = !hypotheses_.empty() && hypotheses_.best().fit.isMutual(1, 1);
-  return is_seen || state_ == PeerState::kConfirmed ? nullptr : surfaces_;
+  if (is_seen || state_ == PeerState::kConfirmed || keyframes_.empty()) return nullptr;
+  const bool has_moved = own.travel - searched_own_travel_ >= options_.keyframe_distance;
+  return has_moved || keyframes_.back().id != searched_id_ ? surfaces_ : nullptr;
 }
 
 void PeerLocalizer::setSearched(double now, const std::optional<Pose2>& found, const OwnView& own) {
   last_search_ = now;
+  searched_own_travel_ = own.travel;
+  searched_id_ = keyframes_.back().id;
   if (!found || own.side.sights.empty()) return;
   hypotheses_.suggest(*found, own.side.sights.back().T_odom_scan.position(), true);
   changed_ = true;

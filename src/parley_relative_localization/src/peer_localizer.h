@@ -39,8 +39,8 @@ class PeerLocalizer {
   void addSights(const SightReport& report);
   void addKeyframe(int id, double stamp, const Pose2& T_odom_scan, const PolarScan& scan);
 
-  /// Weighs hypotheses if there is something new. `claimed` says whether a place in own odom belongs to another peer.
-  void weigh(double now, const OwnView& own, RelativeLocalizationCounters& counters);
+  /// Weighs hypotheses if there is something new. `known`: what others' measurements say of the peer's odom frame.
+  void weigh(double now, const OwnView& own, const std::optional<Pose2>& known, RelativeLocalizationCounters& counters);
   /// Moves between the states; `blocked` if another peer claims the same place.
   void judge(double now, const OwnView& own, bool blocked, RelativeLocalizationCounters& counters);
 
@@ -58,14 +58,15 @@ class PeerLocalizer {
   std::optional<RelativeEdge> edge(const std::string& own_name, const OwnView& own) const;
 
   /// For the global search: the peer's surfaces where it lacks a mutual hypothesis; null otherwise.
-  std::shared_ptr<const SurfaceMap> surfacesToSearch() const;
+  std::shared_ptr<const SurfaceMap> surfacesToSearch(const OwnView& own) const;
   double lastSearch() const { return last_search_; }
   void setSearched(double now, const std::optional<Pose2>& found, const OwnView& own);
-  const MotionHistory& motion() const { return side_.motion; }
   double travel() const { return travel_; }
 
  private:
   SurfaceVerdict checkBest(const OwnView& own, RelativeLocalizationCounters& counters);
+  bool isGood(const SightFit& fit) const;
+  bool isWithinReason(const SightFit& fit, const OwnView& own) const;
   bool isConfirmable(const SightFit& fit) const;
   void hold(PeerState state, const SightFit& fit, const OwnView& own);
   void reconsider(const OwnView& own, bool blocked, RelativeLocalizationCounters& counters);
@@ -80,11 +81,13 @@ class PeerLocalizer {
   SurfaceVerdict verdict_;  // on the best hypothesis
   PeerState state_ = PeerState::kUnknown;
   std::optional<HeldPose> held_;
-  bool changed_ = false;         // something came since the last weighing
-  double newest_used_ = -1e18;   // [s] sights up to this have been proposed
-  double last_weighed_ = -1e18;  // [s]
-  double last_search_ = -1e18;   // [s]
-  double travel_ = 0.0;          // [m]
+  bool changed_ = false;                // something came since the last weighing
+  double newest_used_ = -1e18;          // [s] sights up to this have been proposed
+  double last_weighed_ = -1e18;         // [s]
+  double last_search_ = -1e18;          // [s]
+  double searched_own_travel_ = -1e18;  // [m]
+  int searched_id_ = -1;                // [-] newest keyframe that was searched with
+  double travel_ = 0.0;                 // [m]
 };
 
 }  // namespace parley

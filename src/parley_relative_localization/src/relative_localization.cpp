@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "parley_relative_localization/relative_localization.h"
 
-#include <algorithm>
-#include <map>
 #include <stdexcept>
 #include <utility>
 
 #include "input_check.h"
-#include "own_recorder.h"
-#include "peer_localizer.h"
+#include "localization_core.h"
 
 namespace parley {
 namespace {
-
-constexpr double kSamePlace = 0.6;  // [m] two robots are never nearer to each other than this
 
 void checkConfiguration(const RelativeLocalizationOptions& options, const std::string& name, const Footprint& footprint) {
   std::string problems;
@@ -29,53 +24,6 @@ const char* toString(PeerState state) {
   constexpr const char* kNames[] = {"unknown", "candidate", "tentative", "confirmed"};
   return kNames[static_cast<int>(state)];
 }
-
-class RelativeLocalization::Core {
- public:
-  Core(const RelativeLocalizationOptions& options, std::string name, const Footprint& footprint)
-      : options(options), name(std::move(name)), footprint(footprint), own(options, footprint) {}
-
-  /// nullptr where there are too many.
-  PeerLocalizer* peer(const std::string& peer_name) {
-    const auto known = peers.find(peer_name);
-    if (known != peers.end()) return &known->second;
-    if (peer_name.empty() || peer_name == name || peers.size() >= static_cast<std::size_t>(options.max_peers)) {
-      ++counters.refused_peers;
-      return nullptr;
-    }
-    return &peers.emplace(peer_name, PeerLocalizer(options, peer_name)).first->second;
-  }
-
-  /// Another peer that is at least as well supported claims the place.
-  bool isBlocked(const PeerLocalizer& one, double now) const {
-    const auto wanted = one.claim(now);
-    if (!wanted) return false;
-    return std::any_of(peers.begin(), peers.end(), [&](const auto& entry) {
-      const auto other = entry.first == one.name() ? std::nullopt : entry.second.claim(now);
-      return other && (other->place - wanted->place).norm() < kSamePlace &&
-             (other->confirmed || other->score > options.rival_share * wanted->score);
-    });
-  }
-
-  std::vector<PeerEstimate> step(double now) {
-    own.forgetBefore(now - options.sight_window - 2.0);
-    own.refresh();
-    for (auto& entry : peers) entry.second.weigh(now, own.view(), counters);
-    std::vector<PeerEstimate> estimates;
-    for (auto& entry : peers) {
-      entry.second.judge(now, own.view(), isBlocked(entry.second, now), counters);
-      estimates.push_back(entry.second.estimate(now, own.view()));
-    }
-    return estimates;
-  }
-
-  RelativeLocalizationOptions options;
-  std::string name;
-  Footprint footprint;
-  OwnRecorder own;
-  std::map<std::string, PeerLocalizer> peers;
-  RelativeLocalizationCounters counters;
-};
 
 RelativeLocalization::RelativeLocalization(const RelativeLocalizationOptions& options, std::string name,
                                            const Footprint& footprint) {
@@ -117,7 +65,11 @@ void RelativeLocalization::addPeerKeyframe(const std::string& peer, const Keyfra
 }
 
 void RelativeLocalization::addEdge(const RelativeEdge& edge) {
-  if (!isPlausible(edge)) ++core_->counters.refused;
+  if (!isPlausible(edge)) {
+    ++core_->counters.refused;
+  } else if (edge.from != core_->name) {
+    core_->graph.add(edge);
+  }
 }
 
 std::vector<PeerEstimate> RelativeLocalization::step(double now) { return core_->step(now); }
@@ -131,16 +83,18 @@ std::vector<SightReport> RelativeLocalization::sights(double since) const {
 }
 
 std::vector<RelativeEdge> RelativeLocalization::edges() const {
-  std::vector<RelativeEdge> edges;
-  for (const auto& entry : core_->peers) {
-    if (const auto edge = entry.second.edge(core_->name, core_->own.view())) edges.push_back(*edge);
+  std::vector<RelativeEdge> own_edges;
+  for (const RelativeEdge& edge : core_->graph.edges()) {
+    if (edge.from == core_->name) own_edges.push_back(edge);
   }
-  return edges;
+  return own_edges;
 }
 
 RelativeLocalizationCounters RelativeLocalization::counters() const { return core_->counters; }
 
-void RelativeLocalization::forget(const std::string& peer) { core_->peers.erase(peer); }
+double RelativeLocalization::travel() const { return core_->own.view().travel; }
+
+void RelativeLocalization::forget(const std::string& peer) { core_->forget(peer); }
 
 void RelativeLocalization::reset() { core_ = std::make_unique<Core>(core_->options, core_->name, core_->footprint); }
 

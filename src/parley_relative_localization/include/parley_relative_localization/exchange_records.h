@@ -42,6 +42,7 @@ struct MotionReport {
   Pose2 T_odom_base;
   Twist2 twist;
   Footprint footprint;
+  double travel = 0.0;  // [m] its way since its start, RelativeLocalization::travel() there
 };
 
 /// A measured relative pose of two robots, each placed by its own odometry at that time.

@@ -66,6 +66,8 @@ class RelativeLocalization {
   std::vector<SightReport> sights(double since) const;
   /// Poses that this robot measured itself and holds for confirmed.
   std::vector<RelativeEdge> edges() const;
+  /// This robot's way since its start by its odometry, for its beacons. [m]
+  double travel() const;
   RelativeLocalizationCounters counters() const;
 
   /// For a peer that has started anew: its odometry has another origin.

@@ -23,6 +23,7 @@ struct RelativeLocalizationOptions {
   int max_hypotheses = 8;           // [-]
   int max_sights = 80;              // [-]
   int max_blobs = 16;               // [-]
+  int max_told_blobs = 6;           // [-]
 
   int matches_mutual = 40;          // [-]
   int matches_alone = 70;           // [-]
@@ -77,6 +78,7 @@ struct RelativeLocalizationOptions {
     v.integer("max_hypotheses", max_hypotheses, "-", 1, 64, "poses weighed for each peer; the least supported goes first");
     v.integer("max_sights", max_sights, "-", 8, 400, "scans with their blobs held of each robot; older ones are forgotten");
     v.integer("max_blobs", max_blobs, "-", 1, 100, "blobs used of a scan; the nearest come first");
+    v.integer("max_told_blobs", max_told_blobs, "-", 1, 100, "blobs told of a scan; the nearest come first");
   }
 
   template <class Visitor>
