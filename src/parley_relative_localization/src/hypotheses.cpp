@@ -118,10 +118,12 @@ void Hypotheses::suggest(const Pose2& T_odom_peerodom, const Eigen::Vector2d& ce
 void Hypotheses::weigh(const MeetingSide& own, const MeetingSide& peer) {
   if (own.sights.empty()) return;
   const Eigen::Vector2d here = own.sights.back().T_odom_scan.position();
+  remembered_contradictions_ = 0;
   for (Hypothesis& hypothesis : all_) {
     const MeetingPose before = hypothesis.fit.pose;
     hypothesis.fit = fitSights(own, peer, before, std::nullopt, options_);
     if (!hypothesis.fit.solved) hypothesis.fit.pose = before;
+    if (hypothesis.remembered) remembered_contradictions_ = hypothesis.fit.contradictions_in_row;
   }
   const auto better = [](const Hypothesis& a, const Hypothesis& b) {
     return a.fit.score() + a.surface_matches > b.fit.score() + b.surface_matches;

@@ -25,6 +25,8 @@ class Hypotheses {
   void suggest(const Pose2& T_odom_peerodom, const Eigen::Vector2d& center, bool from_search);
   /// Fits all anew to what both sides saw, drops what is contradicted and keeps the best of those alike. Best first.
   void weigh(const MeetingSide& own, const MeetingSide& peer);
+  /// Newest own scans that saw through the peer where it is remembered.
+  int rememberedContradictions() const { return remembered_contradictions_; }
   void dropBest() { all_.erase(all_.begin()); }
   void replaceBest(const SightFit& fit) { all_.front().fit = fit; }
   void clear() { all_.clear(); }
@@ -42,6 +44,7 @@ class Hypotheses {
 
   RelativeLocalizationOptions options_;
   std::vector<Hypothesis> all_;
+  int remembered_contradictions_ = 0;  // [-]
 };
 
 /// Whether two poses place the peer alike: within `distance` [m] at `center` and `turn` [rad].

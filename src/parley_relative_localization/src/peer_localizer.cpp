@@ -9,12 +9,13 @@
 namespace parley {
 namespace {
 
-constexpr double kWeighPeriod = 0.2;       // [s] own scans alone are reason enough after this time
-constexpr double kTentativeMemory = 30.0;  // [s] without new evidence, what is not confirmed is forgotten
-constexpr double kBlindFactor = 2.0;       // [-] where surfaces say nothing, sightings must say so much more
-constexpr double kReason = 16.0;           // [-] squared deviations that a held pose is moved by at most
-constexpr int kMostChecks = 3;             // [-] hypotheses whose surfaces are compared at a time
-constexpr double kStepLimit = 20.0;        // [m] a longer step between two reports is no way driven
+constexpr double kWeighPeriod = 0.2;        // [s] own scans alone are reason enough after this time
+constexpr double kTentativeMemory = 30.0;   // [s] without new evidence, what is not confirmed is forgotten
+constexpr double kBlindFactor = 2.0;        // [-] where surfaces say nothing, sightings must say so much more
+constexpr double kReason = 16.0;            // [-] squared deviations that a held pose is moved by at most
+constexpr int kMostChecks = 3;              // [-] hypotheses whose surfaces are compared at a time
+constexpr double kSearchedDeviation = 0.1;  // [m] of a pose that surfaces alone gave
+constexpr double kSearchedRotation = 0.03;  // [rad]
 
 }  // namespace
 
@@ -82,6 +83,7 @@ SurfaceVerdict PeerLocalizer::checkBest(const OwnView& own, RelativeLocalization
     ++counters.matches;
     const PoseInformation pose{fit.pose.T_odom_peerodom, fit.center, fit.covariance.inverse()};
     const SurfaceVerdict verdict = checkSurfaces(*own.surfaces, *surfaces_, pose, options_);
+    if (hypotheses_.best().remembered) surface_contradictions_ = verdict.contradicts ? surface_contradictions_ + 1 : 0;
     if (verdict.contradicts) {
       hypotheses_.dropBest();
       continue;
@@ -110,14 +112,26 @@ bool PeerLocalizer::isConfirmable(const SightFit& fit) const {
          fit.distinction >= options_.confirm_distinction * factor;
 }
 
+bool PeerLocalizer::isWithinReason(const SightFit& fit, const OwnView& own) const {
+  const Eigen::Vector3d step = stepBetween(held_->T_odom_peerodom.pose, fit.pose.T_odom_peerodom, fit.center);
+  const Eigen::Matrix3d covariance = covarianceAbout(grown(own), fit.center) + fit.covariance;
+  return step.dot(covariance.inverse() * step) < kReason;
+}
+
 void PeerLocalizer::hold(PeerState state, const SightFit& fit, const OwnView& own) {
   const Pose2& T = fit.pose.T_odom_peerodom;
-  held_ = HeldPose{{T, covarianceOfPose(T, fit.center, fit.covariance)},
-                   fit.last,
-                   own.travel,
-                   travel_,
-                   fit.own_sights + fit.peer_sights,
-                   fit.pose.time_offset};
+  HeldPose held;
+  held.stamp = fit.solved ? fit.last : own.side.sights.back().stamp;
+  held.time_offset = fit.pose.time_offset;
+  const double peer_stamp = held.stamp + held.time_offset;
+  held.own_travel = own.travel - own.side.motion.travel(held.stamp, own.side.motion.latest().stamp);
+  held.peer_travel = travel_ - side_.motion.travel(peer_stamp, std::max(peer_stamp, side_.motion.latest().stamp));
+  held.support = fit.own_sights + fit.peer_sights + hypotheses_.best().surface_matches;
+  const Eigen::Vector3d searched(kSearchedDeviation, kSearchedDeviation, kSearchedRotation);
+  const Eigen::Matrix3d covariance = fit.solved ? fit.covariance : Eigen::Matrix3d(searched.cwiseAbs2().asDiagonal());
+  const Eigen::Vector2d center = fit.solved ? fit.center : own.side.sights.back().T_odom_scan.position();
+  held.T_odom_peerodom = {T, covarianceOfPose(T, center, covariance)};
+  held_ = held;
   state_ = state;
 }
 
@@ -139,18 +153,18 @@ void PeerLocalizer::judge(double now, const OwnView& own, bool blocked, Relative
 }
 
 void PeerLocalizer::reconsider(const OwnView& own, bool blocked, RelativeLocalizationCounters& counters) {
+  const int contradictions = std::max(hypotheses_.rememberedContradictions(), surface_contradictions_);
+  if (state_ == PeerState::kConfirmed && contradictions >= options_.demote_contradictions) {
+    state_ = PeerState::kCandidate;
+    surface_contradictions_ = 0;
+    ++counters.demotions;
+    return;
+  }
   if (hypotheses_.empty()) return;
   const SightFit& fit = hypotheses_.best().fit;
   const bool is_confirmable = !blocked && isConfirmable(fit);
   if (state_ == PeerState::kConfirmed) {
     const bool is_alike = isAlike(held_->T_odom_peerodom.pose, fit.pose.T_odom_peerodom, fit.center);
-    for (const Hypothesis& hypothesis : hypotheses_.all()) {
-      if (hypothesis.remembered && hypothesis.fit.contradictions_in_row >= options_.demote_contradictions) {
-        state_ = PeerState::kCandidate;
-        ++counters.demotions;
-        return;
-      }
-    }
     if (is_confirmable && !is_alike) {  // the world says otherwise now
       ++counters.demotions;
       hold(PeerState::kTentative, fit, own);

@@ -82,6 +82,7 @@ class PeerLocalizer {
   PeerState state_ = PeerState::kUnknown;
   std::optional<HeldPose> held_;
   bool changed_ = false;                // something came since the last weighing
+  int surface_contradictions_ = 0;      // [-] checks in a row that spoke against the held pose
   double newest_used_ = -1e18;          // [s] sights up to this have been proposed
   double last_weighed_ = -1e18;         // [s]
   double last_search_ = -1e18;          // [s]

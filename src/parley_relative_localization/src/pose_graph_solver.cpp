@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kIterations = 25;       // [-]
 constexpr double kCauchy = 2.0;       // [-] deviations from which on a measured edge loses weight
-constexpr double kSameAnchor = 1e-6;  // [m]
+constexpr double kSameAnchor = 1e-6;  // [m] [rad]
 
 struct Node {
   Anchor anchor;
@@ -35,20 +35,27 @@ void place(Node& node, const Pose2& pose) {
   node.placed = true;
 }
 
+/// Standing robots turn: the way alone does not tell anchors apart.
+double difference(const Anchor& a, const Anchor& b) {
+  return std::abs(a.travel - b.travel) + (a.T_odom_base.position() - b.T_odom_base.position()).norm() +
+         std::abs(angleBetween(a.T_odom_base.yaw, b.T_odom_base.yaw));
+}
+
 void addAnchor(std::vector<Node>& nodes, const Anchor& anchor) {
   for (const Node& node : nodes) {
-    if (std::abs(node.anchor.travel - anchor.travel) < kSameAnchor) return;
+    if (difference(node.anchor, anchor) < kSameAnchor) return;
   }
   const auto farther = [](double travel, const Node& node) { return travel < node.anchor.travel; };
   nodes.insert(std::upper_bound(nodes.begin(), nodes.end(), anchor.travel, farther), Node{anchor, {}, false});
 }
 
-Node& find(std::vector<Node>& nodes, double travel) {
-  const auto nearer = [&](const Node& a, const Node& b) {
-    return std::abs(a.anchor.travel - travel) < std::abs(b.anchor.travel - travel);
-  };
+Node& find(std::vector<Node>& nodes, const Anchor& anchor) {
+  const auto nearer = [&](const Node& a, const Node& b) { return difference(a.anchor, anchor) < difference(b.anchor, anchor); };
   return *std::min_element(nodes.begin(), nodes.end(), nearer);
 }
+
+Anchor fromOf(const RelativeEdge& edge) { return {edge.T_odom_from, edge.travel_from}; }
+Anchor toOf(const RelativeEdge& edge) { return {edge.T_odom_to, edge.travel_to}; }
 
 /// Places all anchors of a robot from one that is placed.
 void placeAlong(std::vector<Node>& nodes, const Node& from) {
@@ -63,8 +70,8 @@ void placeAll(Nodes& nodes, const std::vector<RelativeEdge>& edges) {
   for (bool progress = true; progress;) {
     progress = false;
     for (const RelativeEdge& edge : edges) {
-      Node& from = find(nodes[edge.from], edge.travel_from);
-      Node& to = find(nodes[edge.to], edge.travel_to);
+      Node& from = find(nodes[edge.from], fromOf(edge));
+      Node& to = find(nodes[edge.to], toOf(edge));
       if (from.placed == to.placed) continue;
       if (from.placed) {
         place(to, poseOf(from) * edge.T_from_to.pose);
@@ -98,8 +105,8 @@ void buildProblem(ceres::Problem& problem, Nodes& nodes, const std::vector<Relat
     }
   }
   for (const RelativeEdge& edge : edges) {
-    Node& from = find(nodes[edge.from], edge.travel_from);
-    Node& to = find(nodes[edge.to], edge.travel_to);
+    Node& from = find(nodes[edge.from], fromOf(edge));
+    Node& to = find(nodes[edge.to], toOf(edge));
     if (from.placed && to.placed) addResidual(problem, from, to, edge.T_from_to, true);
   }
 }
@@ -129,10 +136,10 @@ std::map<std::string, GraphEstimate> solveAnchors(const std::string& own_name, c
   Nodes nodes;
   addAnchor(nodes[own_name], own);
   for (const RelativeEdge& edge : edges) {
-    addAnchor(nodes[edge.from], {edge.T_odom_from, edge.travel_from});
-    addAnchor(nodes[edge.to], {edge.T_odom_to, edge.travel_to});
+    addAnchor(nodes[edge.from], fromOf(edge));
+    addAnchor(nodes[edge.to], toOf(edge));
   }
-  Node& origin = find(nodes[own_name], own.travel);
+  Node& origin = find(nodes[own_name], own);
   place(origin, own.T_odom_base);
   placeAlong(nodes[own_name], origin);
   placeAll(nodes, edges);

@@ -139,15 +139,14 @@ PolarScan polarScanOf(const ObstacleScan& scan, bool keep_transient) {
   result.range_max = std::clamp(std::round(scan.range_max * 10.0), 1.0, 255.0) / 10.0;
   std::array<Joined, kPolarBins> joined;
   const std::size_t count = scan.binCount();
-  for (std::size_t bin = 0; bin < count; ++bin) {
-    const bool transient = bin < scan.transient.size() && scan.transient[bin];
-    if (std::isnan(scan.ranges[bin]) || (transient && !keep_transient)) continue;
-    const int first = PolarScan::binOf(scan.bearingOf(bin));
-    // Where the lidar has fewer bins than the descriptor, each of them fills several.
-    const int copies = std::max(1, static_cast<int>(kPolarBins / count));
-    for (int copy = 0; copy < copies; ++copy) {
-      joined[static_cast<std::size_t>(PolarScan::wrapBin(first + copy - copies / 2))].add(scan.ranges[bin]);
-    }
+  const auto add = [&](std::size_t from, std::size_t to) {
+    const bool transient = from < scan.transient.size() && scan.transient[from];
+    if (!std::isnan(scan.ranges[from]) && (!transient || keep_transient)) joined[to].add(scan.ranges[from]);
+  };
+  for (std::size_t bin = 0; bin < std::max(count, joined.size()); ++bin) {
+    // Whichever has fewer bins: each of them takes part in several of the other's.
+    const std::size_t from = count >= joined.size() ? bin : bin * count / joined.size();
+    add(from, count >= joined.size() ? bin * joined.size() / count : bin);
   }
   for (std::size_t bin = 0; bin < joined.size(); ++bin) result.codes[bin] = joined[bin].code(result.range_max);
   return result;
