@@ -19,6 +19,7 @@ constexpr double kRadio = 10.0;          // [m]
 constexpr double kLongest = 16.0;        // [s]
 constexpr double kAfter = 4.0;           // [s] that an encounter is followed after the last sight
 constexpr int kEncounterScans = 10;      // [-] of mutual sight in a row
+constexpr double kRareKeyframe = 2.5;    // [m]
 constexpr double kPlaceBytes = 12.0;     // [-] of identity, stamp and pose of a keyframe
 constexpr double kReportBytes = 6.0;     // [-] of a sight report's stamp
 constexpr double kBlobBytes = 4.0;       // [-]
@@ -151,7 +152,6 @@ class Run {
     const ObstacleScan seen =
         test::simulatedScan(walls, bodies, movers_[i].truth(), now + (i == 1 ? offset_ : 0.0), options_.lidar, random_);
     localizers_[i].addOwnScan(movers_[i].odometry(), seen);
-    saw_blobs_[i] = !seen.blobs.empty();
   }
 
   void talk(double now) {
@@ -169,12 +169,17 @@ class Run {
           outcome_.bytes += kReportBytes + kBlobBytes * static_cast<double>(report.blobs.size());
         }
         for (const Keyframe& keyframe : localizers_[1].keyframes()) {
-          if (arrived_.count(keyframe.id) > 0 || message.keyframes.size() >= 2 || !saw_blobs_[1]) continue;
+          // One now and then before anything is known of the other; all once it says that it may have been seen.
+          const bool is_due = state_heard_ >= PeerState::kCandidate || localizers_[1].travel() > told_travel_ + kRareKeyframe;
+          if (arrived_.count(keyframe.id) > 0 || message.keyframes.size() >= 2 || !is_due) continue;
+          told_travel_ = localizers_[1].travel();
           message.keyframes.push_back(keyframe);
           outcome_.bytes += kPlaceBytes + static_cast<double>(keyframe.descriptor.size());
         }
       }
-      if (std::uniform_real_distribution<double>(0.0, 1.0)(random_) >= options_.loss) {
+      std::uniform_real_distribution<double> chance(0.0, 1.0);
+      if (chance(random_) >= options_.loss) state_heard_ = state_;
+      if (chance(random_) >= options_.loss) {
         for (const Keyframe& keyframe : message.keyframes) arrived_.insert(keyframe.id);
         messages_.push_back(message);
       }
@@ -241,7 +246,6 @@ class Run {
   double offset_ = 0.0, phase_ = 0.0;  // [s]
   std::vector<Mover> movers_;
   std::vector<RelativeLocalization> localizers_;
-  std::array<bool, 2> saw_blobs_{};
   std::deque<Message> messages_;
   std::set<int> arrived_;
   double reported_ = -1.0;                         // [s] peer's clock
@@ -249,7 +253,8 @@ class Run {
   double first_sight_ = -1.0, last_sight_ = -1.0;  // [s]
   double travel_at_sight_ = 0.0;                   // [m]
   int scans_in_sight_ = 0;
-  PeerState state_ = PeerState::kUnknown;
+  double told_travel_ = -1e9;  // [m] robot 1's, when it last sent a keyframe
+  PeerState state_ = PeerState::kUnknown, state_heard_ = PeerState::kUnknown;
   Outcome outcome_;
 };
 

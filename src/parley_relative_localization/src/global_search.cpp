@@ -14,7 +14,7 @@ constexpr double kCell = 0.2;          // [m]
 constexpr double kReach = 7.6;         // [m] how far the peer may be
 constexpr std::size_t kProbes = 100;   // [-] points placed on the grid
 constexpr double kLeastHits = 0.25;    // [-]
-constexpr std::size_t kPlaces = 24;    // [-] that are refined a little
+constexpr std::size_t kPlaces = 16;    // [-] that are refined a little
 constexpr std::size_t kModes = 6;      // [-] that are refined to the end
 constexpr double kOverlap = 0.3;       // [-] of the points must match
 
@@ -161,7 +161,7 @@ std::optional<PoseInformation> searchGlobally(const SurfaceMap& own, const Surfa
   if (own.sample.empty() || peer.sample.empty()) return std::nullopt;
   const Eigen::Vector2d here = own.submap.scans().back().T_odom_scan.position();
   const Eigen::Vector2d there = peer.submap.scans().back().T_odom_scan.position();
-  std::vector<Place> modes = refined(own, peer, thinned(placesOf(own, peer, here, there), there), there, 5, 60);
+  std::vector<Place> modes = refined(own, peer, thinned(placesOf(own, peer, here, there), there), there, 4, 60);
   keepBest(modes, kModes);
   modes = refined(own, peer, modes, there, 12, 240);
   keepBest(modes, kModes);

@@ -54,6 +54,21 @@ Found findBody(const SightRecord& sight, const Footprint& footprint, const Pose2
   return found;
 }
 
+/// Looks from the same place at the same thing share their error.
+class Novelty {
+ public:
+  double weigh(const Eigen::Vector2d& p_scan) {
+    const double moved = (p_scan - last_).norm();
+    last_ = p_scan;
+    return std::clamp(moved / kNewLook, kSameLook, 1.0);
+  }
+
+ private:
+  static constexpr double kNewLook = 0.12;   // [m]
+  static constexpr double kSameLook = 0.05;  // [-]
+  Eigen::Vector2d last_ = Eigen::Vector2d::Constant(1e6);
+};
+
 double combined(double noise, double motion) { return std::hypot(noise, motion); }
 
 }  // namespace
@@ -72,6 +87,7 @@ SightTerms agreeingSights(const MeetingSide& own, const MeetingSide& peer, const
                           const RelativeLocalizationOptions& options) {
   SightTerms result;
   const Pose2 T = pose.T_odom_peerodom, T_back = T.inverse();
+  Novelty own_looks, peer_looks;
   for (const SightRecord& sight : own.sights) {
     const auto motion = peer.motion.at(sight.stamp + pose.time_offset);
     if (!motion) continue;
@@ -79,8 +95,9 @@ SightTerms agreeingSights(const MeetingSide& own, const MeetingSide& peer, const
     const Found found = findBody(sight, peer.footprint, T_scan_body, gate, options.chord_gate);
     if (found.blob != nullptr) {
       const Eigen::Vector2d error = turned(sight.T_odom_scan.yaw, found.expected.position - found.blob->position);
-      result.terms.push_back({true, sight.stamp, combined(options.sight_noise, motion->deviation), error,
-                              T * motion->pose.position(), turned(T.yaw, motion->velocity)});
+      result.terms.push_back({true, sight.stamp, combined(options.sight_noise, motion->deviation),
+                              own_looks.weigh(T_scan_body.position()), error, T * motion->pose.position(),
+                              turned(T.yaw, motion->velocity)});
       result.contradictions_in_row = 0;
     } else if (sight.has_scan && motion->deviation < kSureMotion && seesThrough(sight.scan, T_scan_body.position())) {
       ++result.contradictions;
@@ -94,8 +111,9 @@ SightTerms agreeingSights(const MeetingSide& own, const MeetingSide& peer, const
     const Found found = findBody(sight, own.footprint, T_scan_body, gate, options.chord_gate);
     if (found.blob != nullptr) {
       const Eigen::Vector2d error = turned(T.yaw + sight.T_odom_scan.yaw, found.blob->position - found.expected.position);
-      result.terms.push_back({false, sight.stamp - pose.time_offset, combined(options.sight_noise, motion->deviation), error,
-                              T * (sight.T_odom_scan * found.blob->position), motion->velocity});
+      result.terms.push_back({false, sight.stamp - pose.time_offset, combined(options.sight_noise, motion->deviation),
+                              peer_looks.weigh(T_scan_body.position()), error, T * (sight.T_odom_scan * found.blob->position),
+                              motion->velocity});
     } else if (sight.has_scan && seesThrough(sight.scan, T_scan_body.position())) {
       ++result.contradictions;
     }

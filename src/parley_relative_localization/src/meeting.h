@@ -41,6 +41,7 @@ struct SightTerm {
   bool own = true;                                     // own lidar saw the peer; else the peer's saw this robot
   double stamp = 0.0;                                  // [s] own clock
   double deviation = 0.0;                              // [m] standard deviation of the error
+  double weight = 1.0;                                 // [-] less where the look is the same as the one before
   Eigen::Vector2d error = Eigen::Vector2d::Zero();     // [m]
   Eigen::Vector2d place = Eigen::Vector2d::Zero();     // [m] that moves with the peer's odom, own odom
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // [m/s] of the error with the time offset

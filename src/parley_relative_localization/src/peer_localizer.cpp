@@ -112,10 +112,14 @@ bool PeerLocalizer::isConfirmable(const SightFit& fit) const {
          fit.distinction >= options_.confirm_distinction * factor;
 }
 
-bool PeerLocalizer::isWithinReason(const SightFit& fit, const OwnView& own) const {
+bool PeerLocalizer::isImprovement(const SightFit& fit, const OwnView& own) const {
   const Eigen::Vector3d step = stepBetween(held_->T_odom_peerodom.pose, fit.pose.T_odom_peerodom, fit.center);
   const Eigen::Matrix3d covariance = covarianceAbout(grown(own), fit.center) + fit.covariance;
-  return step.dot(covariance.inverse() * step) < kReason;
+  const Eigen::Matrix3d held = covarianceAbout(grown(own), fit.center);
+  // What was known better is not given up for a look that says less, as at a robot that stands close by.
+  const bool is_better =
+      fit.covariance(2, 2) <= held(2, 2) && fit.covariance.topLeftCorner<2, 2>().trace() <= held.topLeftCorner<2, 2>().trace();
+  return is_better && step.dot(covariance.inverse() * step) < kReason;
 }
 
 void PeerLocalizer::hold(PeerState state, const SightFit& fit, const OwnView& own) {
@@ -168,7 +172,7 @@ void PeerLocalizer::reconsider(const OwnView& own, bool blocked, RelativeLocaliz
     if (is_confirmable && !is_alike) {  // the world says otherwise now
       ++counters.demotions;
       hold(PeerState::kTentative, fit, own);
-    } else if (is_alike && isGood(fit) && fit.isMutual(3, 3) && verdict_.agrees && isWithinReason(fit, own)) {
+    } else if (is_alike && isGood(fit) && fit.isMutual(3, 3) && verdict_.agrees && isImprovement(fit, own)) {
       hold(PeerState::kConfirmed, fit, own);
     }
     return;

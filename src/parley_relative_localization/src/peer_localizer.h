@@ -66,7 +66,7 @@ class PeerLocalizer {
  private:
   SurfaceVerdict checkBest(const OwnView& own, RelativeLocalizationCounters& counters);
   bool isGood(const SightFit& fit) const;
-  bool isWithinReason(const SightFit& fit, const OwnView& own) const;
+  bool isImprovement(const SightFit& fit, const OwnView& own) const;
   bool isConfirmable(const SightFit& fit) const;
   void hold(PeerState state, const SightFit& fit, const OwnView& own);
   void reconsider(const OwnView& own, bool blocked, RelativeLocalizationCounters& counters);

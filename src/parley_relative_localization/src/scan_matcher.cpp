@@ -8,12 +8,12 @@
 namespace parley {
 namespace {
 
-constexpr double kWideGate = 0.35;     // [m]
-constexpr double kNarrowGate = 0.15;   // [m]
-constexpr double kNoise = 0.03;        // [m] of a point against its line, 8 bits and odometry in the submap included
-constexpr double kDone = 1e-5;         // [m] [rad] a step smaller than this is the last
-constexpr double kCorrelation = 12.0;  // [-] points that share one error: how much less they say than independent ones
-constexpr int kFewest = 12;            // [-] fewer inliers are no match
+constexpr double kWideGate = 0.35;    // [m]
+constexpr double kNarrowGate = 0.15;  // [m]
+constexpr double kNoise = 0.03;       // [m] of a point against its line, 8 bits and odometry in the submap included
+constexpr double kDone = 1e-5;        // [m] [rad] a step smaller than this is the last
+constexpr double kCorrelation = 8.0;  // [-] points that share one error: how much less they say than independent ones
+constexpr int kFewest = 12;           // [-] fewer inliers are no match
 
 struct Normal {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();

@@ -32,7 +32,7 @@ NormalEquations equationsOf(const SightTerms& sights, const Eigen::Vector2d& cen
     j.col(3) = term.velocity;
     const double variance = term.deviation * term.deviation;
     const double ratio = term.error.squaredNorm() / (variance * kCauchy * kCauchy);
-    const double weight = 1.0 / (variance * (1.0 + ratio) * kCorrelation);
+    const double weight = term.weight / (variance * (1.0 + ratio) * kCorrelation);
     sum.information += weight * j.transpose() * j;
     sum.gradient += weight * j.transpose() * term.error;
   }
