@@ -39,10 +39,17 @@ PeerLocalizer* RelativeLocalization::Core::peer(const std::string& peer_name) {
   return &peers.emplace(peer_name, PeerLocalizer(options, peer_name)).first->second;
 }
 
+void RelativeLocalization::Core::addEdge(const RelativeEdge& edge) {
+  if (edge.from == name) return;  // this robot's own, come back
+  const auto demoted = demoted_.find(edge.to == name ? edge.from : std::string());
+  if (demoted == demoted_.end() || edge.stamp > demoted->second) graph.add(edge);
+}
+
 void RelativeLocalization::Core::forget(const std::string& peer_name) {
   peers.erase(peer_name);
   graph.forget(peer_name);
   solved_.erase(peer_name);
+  demoted_.erase(peer_name);
 }
 
 /// Another peer claims the place, and is not much worse supported.
@@ -125,6 +132,7 @@ std::vector<PeerEstimate> RelativeLocalization::Core::step(double now) {
     if (counters.demotions > demotions) {
       graph.forget(entry.first);
       solved_.erase(entry.first);
+      demoted_[entry.first] = now;
     }
     estimates[entry.first] = entry.second.estimate(now, own.view());
   }

@@ -20,6 +20,8 @@ class RelativeLocalization::Core {
   PeerLocalizer* peer(const std::string& peer_name);
   /// The whole of a step: weigh each peer, search for one that nobody sees, judge, solve the graph, answer.
   std::vector<PeerEstimate> step(double now);
+  /// Edges about a pose that this robot has seen to be wrong are not taken from others either.
+  void addEdge(const RelativeEdge& edge);
   void forget(const std::string& peer_name);
 
   const RelativeLocalizationOptions options;
@@ -38,9 +40,10 @@ class RelativeLocalization::Core {
   void mergeGraph(double now, const std::string& peer_name, PeerEstimate& estimate) const;
 
   std::map<std::string, GraphEstimate> solved_;
-  double solved_travel_ = 0.0;  // [m] own odometer then
-  double last_solved_ = -1e18;  // [s]
-  double last_search_ = -1e18;  // [s]
+  std::map<std::string, double> demoted_;  // [s] when a peer's pose was last contradicted
+  double solved_travel_ = 0.0;             // [m] own odometer then
+  double last_solved_ = -1e18;             // [s]
+  double last_search_ = -1e18;             // [s]
 };
 
 }  // namespace parley

@@ -67,8 +67,8 @@ void RelativeLocalization::addPeerKeyframe(const std::string& peer, const Keyfra
 void RelativeLocalization::addEdge(const RelativeEdge& edge) {
   if (!isPlausible(edge)) {
     ++core_->counters.refused;
-  } else if (edge.from != core_->name) {
-    core_->graph.add(edge);
+  } else {
+    core_->addEdge(edge);
   }
 }
 
