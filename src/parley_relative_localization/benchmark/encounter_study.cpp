@@ -139,7 +139,7 @@ int study(int argc, char** argv) {
   if (names.empty()) names = {"mirrored", "periodic"};
   std::printf(
       "world                  enc  conf  share  tent  <=2m  wrong else wrong  m p50  p95   deg p50 p95   travel sec    byte desc "
-      "  ms p50 p99 nees\n");
+      "  ms p50 p99  chi\n");
   Tally all, all_but_periodic;
   std::string json = "{";
   const int share = static_cast<int>(names.size());

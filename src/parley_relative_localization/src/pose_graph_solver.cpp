@@ -111,6 +111,17 @@ void buildProblem(ceres::Problem& problem, Nodes& nodes, const std::vector<Relat
   }
 }
 
+bool solve(ceres::Problem& problem) {
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.max_num_iterations = kIterations;
+  options.num_threads = 1;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  return summary.IsSolutionUsable();
+}
+
 /// Covariances of each robot's newest anchor against the held one.
 bool covariancesOf(ceres::Problem& problem, const std::vector<const double*>& blocks, std::vector<Covariance3>& result) {
   ceres::Covariance::Options options;
@@ -148,13 +159,7 @@ std::map<std::string, GraphEstimate> solveAnchors(const std::string& own_name, c
   std::map<std::string, GraphEstimate> estimates;
   if (problem.NumResidualBlocks() == 0 || !problem.HasParameterBlock(origin.pose.data())) return estimates;
   problem.SetParameterBlockConstant(origin.pose.data());
-  ceres::Solver::Options solver;
-  solver.linear_solver_type = ceres::DENSE_QR;
-  solver.max_num_iterations = kIterations;
-  solver.num_threads = 1;
-  solver.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(solver, &problem, &summary);
+  if (!solve(problem)) return estimates;
   std::vector<std::string> names;
   std::vector<const double*> blocks;
   for (const auto& [name, anchors] : nodes) {
@@ -163,7 +168,7 @@ std::map<std::string, GraphEstimate> solveAnchors(const std::string& own_name, c
     blocks.push_back(anchors.back().pose.data());
   }
   std::vector<Covariance3> covariances;
-  if (!summary.IsSolutionUsable() || blocks.empty() || !covariancesOf(problem, blocks, covariances)) return estimates;
+  if (blocks.empty() || !covariancesOf(problem, blocks, covariances)) return estimates;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const Node& newest = nodes[names[i]].back();
     const PoseEstimate T_odom_anchor{poseOf(newest), covariances[i]},
