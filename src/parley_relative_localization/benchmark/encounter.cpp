@@ -49,6 +49,9 @@ class Run {
 
   bool place() { return elsewhere_ ? placeElsewhere() : placeMeeting(); }
 
+  /// Robots that were to be elsewhere came near each other on their way.
+  bool haveMet() const { return have_met_; }
+
   Outcome run() {
     const WallRange_ walls = [this](const Eigen::Vector2d& from, const Eigen::Vector2d& direction, double limit) {
       return world_.range(from, direction, limit);
@@ -213,7 +216,7 @@ class Run {
     const Pose2 truth = movers_[0].truth().inverse() * movers_[1].truth();
     const double translation = (relative.position() - truth.position()).norm();
     const double rotation = std::abs(angleBetween(relative.yaw, truth.yaw));
-    outcome_.wrong = outcome_.wrong || elsewhere_ || translation > 0.3 || rotation > radians(5.0);
+    outcome_.wrong = outcome_.wrong || translation > 0.3 || rotation > radians(5.0);
     if (outcome_.confirmed) return;
     outcome_.confirmed = true;
     outcome_.translation_error = translation;
@@ -227,6 +230,7 @@ class Run {
   void watch(double now) {
     const Eigen::Vector2d a = movers_[0].truth().position(), b = movers_[1].truth().position();
     const double distance = (a - b).norm();
+    have_met_ = have_met_ || distance < options_.lidar.range + 1.0;
     const bool sight = !elsewhere_ && distance < options_.lidar.range && world_.range(a, (b - a) / distance, distance) > distance;
     scans_in_sight_ = sight ? scans_in_sight_ + 1 : 0;
     if (!sight) return;
@@ -253,6 +257,7 @@ class Run {
   double first_sight_ = -1.0, last_sight_ = -1.0;  // [s]
   double travel_at_sight_ = 0.0;                   // [m]
   int scans_in_sight_ = 0;
+  bool have_met_ = false;
   double told_travel_ = -1e9;  // [m] robot 1's, when it last sent a keyframe
   PeerState state_ = PeerState::kUnknown, state_heard_ = PeerState::kUnknown;
   Outcome outcome_;
@@ -261,7 +266,9 @@ class Run {
 std::optional<Outcome> simulate(const GridWorld& world, const StudyOptions& options, unsigned seed, bool elsewhere) {
   Run run(world, options, seed, elsewhere);
   for (int attempt = 0; attempt < 20; ++attempt) {
-    if (run.place()) return run.run();
+    if (!run.place()) continue;
+    const Outcome outcome = run.run();
+    return elsewhere && run.haveMet() ? std::nullopt : std::optional<Outcome>(outcome);
   }
   return std::nullopt;
 }
