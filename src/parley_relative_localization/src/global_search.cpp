@@ -50,6 +50,7 @@ std::vector<double> rotationsOf(const Histogram& own, const Histogram& peer) {
   std::stable_sort(maxima.begin(), maxima.end(), [&](std::size_t a, std::size_t b) { return correlation[a] > correlation[b]; });
   maxima.resize(std::min(maxima.size(), kRotations));
   std::vector<double> rotations;
+  rotations.reserve(maxima.size());
   for (const std::size_t shift : maxima) rotations.push_back(2.0 * kPi * static_cast<double>(shift) / kDirections);
   return rotations;
 }

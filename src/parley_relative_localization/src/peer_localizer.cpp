@@ -82,7 +82,7 @@ SurfaceVerdict PeerLocalizer::checkBest(const OwnView& own, RelativeLocalization
     const SightFit fit = hypotheses_.best().fit;
     ++counters.matches;
     const PoseInformation pose{fit.pose.T_odom_peerodom, fit.center, fit.covariance.inverse()};
-    const SurfaceVerdict verdict = checkSurfaces(*own.surfaces, *surfaces_, pose, options_);
+    SurfaceVerdict verdict = checkSurfaces(*own.surfaces, *surfaces_, pose, options_);
     if (hypotheses_.best().remembered) surface_contradictions_ = verdict.contradicts ? surface_contradictions_ + 1 : 0;
     if (verdict.contradicts) {
       hypotheses_.dropBest();
@@ -177,11 +177,10 @@ void PeerLocalizer::reconsider(const OwnView& own, bool blocked, RelativeLocaliz
     }
     return;
   }
+  const bool is_seen = fit.isMutual(2, 2) && !hypotheses_.hasRival() && !blocked;
   if (is_confirmable) {
     hold(PeerState::kConfirmed, fit, own);
-  } else if (fit.isMutual(2, 2) && fit.contradictions == 0 && !hypotheses_.hasRival() && !blocked) {
-    hold(PeerState::kTentative, fit, own);
-  } else if (hypotheses_.best().surface_matches >= 2 && fit.contradictions == 0) {
+  } else if (fit.contradictions == 0 && (is_seen || hypotheses_.best().surface_matches >= 2)) {
     hold(PeerState::kTentative, fit, own);
   } else if (fit.isMutual(1, 1) && state_ != PeerState::kTentative) {
     hold(PeerState::kCandidate, fit, own);
