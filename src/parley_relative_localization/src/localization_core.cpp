@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "localization_core.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "global_search.h"
+
+namespace parley {
+namespace {
+
+constexpr double kSamePlace = 0.6;    // [m] two robots are never nearer to each other than this
+constexpr double kSolvePeriod = 0.5;  // [s]
+
+/// Larger of the deviations of the peer's place near this robot. [m]
+double deviationAt(const PoseEstimate& estimate, const Eigen::Vector2d& place) {
+  const Eigen::Matrix3d covariance = covarianceAbout(estimate, place);
+  return std::sqrt(std::max(covariance(0, 0), covariance(1, 1)));
+}
+
+}  // namespace
+
+RelativeLocalization::Core::Core(const RelativeLocalizationOptions& own_options, std::string own_name,
+                                 const Footprint& own_footprint)
+    : options(own_options),
+      name(std::move(own_name)),
+      footprint(own_footprint),
+      own(own_options, own_footprint),
+      graph(own_options, name) {}
+
+PeerLocalizer* RelativeLocalization::Core::peer(const std::string& peer_name) {
+  const auto known = peers.find(peer_name);
+  if (known != peers.end()) return &known->second;
+  if (peer_name.empty() || peer_name == name || peers.size() >= static_cast<std::size_t>(options.max_peers)) {
+    ++counters.refused_peers;
+    return nullptr;
+  }
+  return &peers.emplace(peer_name, PeerLocalizer(options, peer_name)).first->second;
+}
+
+void RelativeLocalization::Core::addEdge(const RelativeEdge& edge) {
+  if (edge.from == name) return;  // this robot's own, come back
+  const auto demoted = demoted_.find(edge.to == name ? edge.from : std::string());
+  if (demoted == demoted_.end() || edge.stamp > demoted->second) graph.add(edge);
+}
+
+void RelativeLocalization::Core::forget(const std::string& peer_name) {
+  peers.erase(peer_name);
+  graph.forget(peer_name);
+  solved_.erase(peer_name);
+  demoted_.erase(peer_name);
+}
+
+/// Another peer claims the place, and is not much worse supported.
+bool RelativeLocalization::Core::isBlocked(const PeerLocalizer& one, double now) const {
+  const auto wanted = one.claim(now);
+  if (!wanted) return false;
+  return std::any_of(peers.begin(), peers.end(), [&](const auto& entry) {
+    const auto other = entry.first == one.name() ? std::nullopt : entry.second.claim(now);
+    return other && (other->place - wanted->place).norm() < kSamePlace &&
+           (other->confirmed || other->score > options.rival_share * wanted->score);
+  });
+}
+
+/// One global search at a time, for the peer that has waited longest.
+void RelativeLocalization::Core::searchForOne(double now) {
+  if (!options.global_search || now - last_search_ < options.search_period || !own.view().surfaces) return;
+  PeerLocalizer* chosen = nullptr;
+  for (auto& entry : peers) {
+    const bool is_waiting = entry.second.surfacesToSearch(own.view()) != nullptr;
+    if (is_waiting && (chosen == nullptr || entry.second.lastSearch() < chosen->lastSearch())) chosen = &entry.second;
+  }
+  if (chosen == nullptr) return;
+  last_search_ = now;
+  ++counters.global_searches;
+  const auto found = searchGlobally(*own.view().surfaces, *chosen->surfacesToSearch(own.view()), options);
+  chosen->setSearched(now, found ? std::optional<Pose2>(found->pose) : std::nullopt, own.view());
+}
+
+void RelativeLocalization::Core::updateGraph(double now) {
+  bool is_new = false;
+  for (const auto& entry : peers) {
+    const auto edge = entry.second.edge(name, own.view());
+    if (!edge) continue;
+    graph.add(*edge);
+    is_new = is_new || solved_.count(entry.first) == 0;
+  }
+  if (own.view().side.motion.empty() || !graph.changed() || (!is_new && now - last_solved_ < kSolvePeriod)) return;
+  solved_ = graph.solve({own.view().side.motion.latest().pose, own.view().travel});
+  solved_travel_ = own.view().travel;
+  last_solved_ = now;
+}
+
+std::optional<Pose2> RelativeLocalization::Core::knownFrame(const std::string& peer_name) const {
+  const auto solved = solved_.find(peer_name);
+  return solved == solved_.end() ? std::nullopt : std::optional<Pose2>(solved->second.T_odom_peerodom.pose);
+}
+
+/// The graph's answer where it is better than, or there is no, measurement of this robot's own.
+void RelativeLocalization::Core::mergeGraph(double now, const std::string& peer_name, PeerEstimate& estimate) const {
+  const auto solved = solved_.find(peer_name);
+  if (solved == solved_.end() || own.view().side.motion.empty()) return;
+  const GraphEstimate& known = solved->second;
+  const auto localizer = peers.find(peer_name);
+  const double peer_way = localizer == peers.end() ? 0.0 : std::max(localizer->second.travel() - known.travel, 0.0);
+  const Eigen::Vector2d here = own.view().side.motion.latest().pose.position();
+  PoseEstimate grown = known.T_odom_peerodom;
+  const double way = peer_way + own.view().travel - solved_travel_;
+  grown.covariance += covarianceOfPose(grown.pose, here, driftOver(way, options));
+  const double deviation = deviationAt(grown, here);
+  if (deviation > options.expire_deviation || now - known.stamp > options.expire_age) return;
+  const bool is_direct = estimate.state == PeerState::kConfirmed;
+  if (is_direct && deviation >= deviationAt(estimate.T_odom_peerodom, here)) return;
+  estimate.T_odom_peerodom = grown;
+  if (is_direct) return;
+  estimate.state = PeerState::kConfirmed;
+  estimate.direct = false;
+  estimate.age = std::max(now - known.stamp, 0.0);
+  estimate.support = known.edges;
+}
+
+std::vector<PeerEstimate> RelativeLocalization::Core::step(double now) {
+  own.forgetBefore(now - options.sight_window - 2.0);
+  own.refresh();
+  for (auto& entry : peers) entry.second.weigh(now, own.view(), knownFrame(entry.first), counters);
+  searchForOne(now);
+  std::map<std::string, PeerEstimate> estimates;
+  for (auto& entry : peers) {
+    const long demotions = counters.demotions;
+    entry.second.judge(now, own.view(), isBlocked(entry.second, now), counters);
+    if (counters.demotions > demotions) {
+      graph.forget(entry.first);
+      solved_.erase(entry.first);
+      demoted_[entry.first] = now;
+    }
+    estimates[entry.first] = entry.second.estimate(now, own.view());
+  }
+  updateGraph(now);
+  for (const auto& solved : solved_) estimates[solved.first].peer = solved.first;
+  std::vector<PeerEstimate> result;
+  for (auto& entry : estimates) {
+    mergeGraph(now, entry.first, entry.second);
+    result.push_back(entry.second);
+  }
+  return result;
+}
+
+}  // namespace parley

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "body_view.h"
+#include "motion_history.h"
+#include "parley_relative_localization/relative_localization_options.h"
+#include "submap.h"
+
+namespace parley {
+
+/// The blobs of one scan. `scan` has its free space too, if that is known.
+struct SightRecord {
+  double stamp = 0.0;  // [s] of the viewer's clock
+  Pose2 T_odom_scan;
+  std::vector<SightedBlob> blobs;
+  PolarScan scan;
+  bool has_scan = false;
+};
+
+/// One robot's side of a meeting: how it moved and what it saw.
+struct MeetingSide {
+  Footprint footprint;
+  MotionHistory motion;
+  std::deque<SightRecord> sights;
+
+  void add(SightRecord record, std::size_t capacity);
+  void forgetBefore(double stamp);
+};
+
+/// Where the peer would be, and how far its stamps are ahead of own ones.
+struct MeetingPose {
+  Pose2 T_odom_peerodom;
+  double time_offset = 0.0;  // [s]
+};
+
+/// One sighting that agrees with a pose: predicted less observed place of the seen robot, in own odom.
+struct SightTerm {
+  bool own = true;                                     // own lidar saw the peer; else the peer's saw this robot
+  double stamp = 0.0;                                  // [s] own clock
+  double deviation = 0.0;                              // [m] standard deviation of the error
+  double weight = 1.0;                                 // [-] less where the look is the same as the one before
+  Eigen::Vector2d error = Eigen::Vector2d::Zero();     // [m]
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();     // [m] that moves with the peer's odom, own odom
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // [m/s] of the error with the time offset
+};
+
+/// All sightings that agree with a pose, and how often one side looked through the other.
+struct SightTerms {
+  std::vector<SightTerm> terms;
+  int contradictions = 0;         // [-]
+  int contradictions_in_row = 0;  // [-] own scans from the newest one back, with nothing else in between
+};
+
+/// Looks in each side's sightings for the other robot where the pose says it should be, up to `gate` [m] off.
+SightTerms agreeingSights(const MeetingSide& own, const MeetingSide& peer, const MeetingPose& pose, double gate,
+                          const RelativeLocalizationOptions& options);
+
+}  // namespace parley

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "own_recorder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace parley {
+
+OwnRecorder::OwnRecorder(const RelativeLocalizationOptions& options, const Footprint& footprint) : options_(options) {
+  view_.side.footprint = footprint;
+}
+
+bool OwnRecorder::add(const Pose2& T_odom_base, const ObstacleScan& scan) {
+  if (!view_.side.motion.empty()) {
+    const TimedPose& last = view_.side.motion.latest();
+    if (scan.stamp <= last.stamp) return false;
+    view_.travel += (T_odom_base.position() - last.pose.position()).norm();
+  }
+  const Eigen::Vector2d origin = T_odom_base * scan.origin;
+  SightRecord record;
+  record.stamp = scan.stamp;
+  record.T_odom_scan = {origin.x(), origin.y(), T_odom_base.yaw};
+  record.scan = polarScanOf(scan, true);
+  record.has_scan = true;
+  for (const Blob& blob : scan.blobs) record.blobs.push_back({blob.position - scan.origin, blob.chord});
+  const auto nearer = [](const SightedBlob& a, const SightedBlob& b) {
+    return a.position.squaredNorm() < b.position.squaredNorm();
+  };
+  std::stable_sort(record.blobs.begin(), record.blobs.end(), nearer);
+  record.blobs.resize(std::min(record.blobs.size(), static_cast<std::size_t>(options_.max_blobs)));
+  newest_ = {next_id_, scan.stamp, record.T_odom_scan, polarScanOf(scan, false)};
+  if (isKeyframeDue(record.T_odom_scan)) {
+    keyframes_.push_back(newest_);
+    if (keyframes_.size() > static_cast<std::size_t>(options_.own_keyframes)) keyframes_.pop_front();
+    ++next_id_;
+  }
+  view_.side.motion.add({scan.stamp, T_odom_base, 0.0, 0.0, false});
+  view_.side.add(std::move(record), static_cast<std::size_t>(options_.max_sights));
+  is_stale_ = true;
+  return true;
+}
+
+bool OwnRecorder::isKeyframeDue(const Pose2& T_odom_scan) const {
+  if (keyframes_.empty()) return true;
+  const Pose2& last = keyframes_.back().T_odom_scan;
+  return (T_odom_scan.position() - last.position()).norm() >= options_.keyframe_distance ||
+         std::abs(angleBetween(last.yaw, T_odom_scan.yaw)) >= options_.keyframe_angle;
+}
+
+void OwnRecorder::refresh() {
+  if (!is_stale_) return;
+  std::vector<PlacedScan> scans(keyframes_.begin(), keyframes_.end());
+  if (scans.back().stamp != newest_.stamp) scans.push_back(newest_);
+  view_.surfaces = std::make_shared<SurfaceMap>(std::move(scans));
+  is_stale_ = false;
+}
+
+void OwnRecorder::forgetBefore(double stamp) {
+  view_.side.forgetBefore(stamp);
+  view_.side.motion.forgetBefore(stamp);
+}
+
+std::vector<Keyframe> OwnRecorder::keyframes(std::size_t count) const {
+  std::vector<Keyframe> result;
+  for (auto it = keyframes_.rbegin(); it != keyframes_.rend() && result.size() < count; ++it) {
+    result.push_back({it->id, it->stamp, it->T_odom_scan, encodeScan(it->scan)});
+  }
+  return result;
+}
+
+std::vector<SightReport> OwnRecorder::reports(double since, std::size_t count) const {
+  std::vector<SightReport> result;
+  const auto& sights = view_.side.sights;
+  for (auto it = sights.rbegin(); it != sights.rend() && it->stamp > since && result.size() < count; ++it) {
+    if (it->blobs.empty()) continue;
+    const auto told = std::min(it->blobs.size(), static_cast<std::size_t>(options_.max_told_blobs));
+    result.push_back({it->stamp, it->T_odom_scan, {it->blobs.begin(), it->blobs.begin() + static_cast<long>(told)}});
+  }
+  std::reverse(result.begin(), result.end());
+  return result;
+}
+
+}  // namespace parley

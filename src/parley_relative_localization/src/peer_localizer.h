@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hypotheses.h"
+#include "parley_relative_localization/relative_localization.h"
+#include "surface_check.h"
+
+namespace parley {
+
+/// This robot's side, as all peers are weighed against it.
+struct OwnView {
+  MeetingSide side;
+  std::shared_ptr<const SurfaceMap> surfaces;  // null before the first scan
+  double travel = 0.0;                         // [m] since the start
+};
+
+/// A pose that is held, with what the odometers said when it was measured.
+struct HeldPose {
+  PoseEstimate T_odom_peerodom;
+  double stamp = 0.0;                          // [s] of the last evidence
+  double own_travel = 0.0, peer_travel = 0.0;  // [m]
+  int support = 0;                             // [-]
+  double time_offset = 0.0;                    // [s]
+};
+
+/// Everything known of one peer: what it sent, how it could stand, and how sure that is.
+/// Unknown -> candidate (one mutual detection) -> tentative (several in both ways) -> confirmed (see README).
+class PeerLocalizer {
+ public:
+  PeerLocalizer(const RelativeLocalizationOptions& options, std::string name);
+
+  void addMotion(const MotionReport& motion);
+  void addSights(const SightReport& report);
+  void addKeyframe(int id, double stamp, const Pose2& T_odom_scan, const PolarScan& scan);
+
+  /// Weighs hypotheses if there is something new. `known`: what others' measurements say of the peer's odom frame.
+  void weigh(double now, const OwnView& own, const std::optional<Pose2>& known, RelativeLocalizationCounters& counters);
+  /// Moves between the states; `blocked` if another peer claims the same place.
+  void judge(double now, const OwnView& own, bool blocked, RelativeLocalizationCounters& counters);
+
+  const std::string& name() const { return name_; }
+  PeerState state() const { return state_; }
+  PeerEstimate estimate(double now, const OwnView& own) const;
+  /// Where the peer is now if its best hypothesis is right, with that hypothesis' support; nullopt without mutual support.
+  struct Claim {
+    Eigen::Vector2d place;  // [m] own odom
+    int score = 0;          // [-]
+    bool confirmed = false;
+  };
+  std::optional<Claim> claim(double now) const;
+  /// The measured pose to hand on, once confirmed.
+  std::optional<RelativeEdge> edge(const std::string& own_name, const OwnView& own) const;
+
+  /// For the global search: the peer's surfaces where it lacks a mutual hypothesis; null otherwise.
+  std::shared_ptr<const SurfaceMap> surfacesToSearch(const OwnView& own) const;
+  double lastSearch() const { return last_search_; }
+  void setSearched(double now, const std::optional<Pose2>& found, const OwnView& own);
+  double travel() const { return travel_; }
+
+ private:
+  SurfaceVerdict checkBest(const OwnView& own, RelativeLocalizationCounters& counters);
+  bool isGood(const SightFit& fit) const;
+  bool isImprovement(const SightFit& fit, const OwnView& own) const;
+  bool isConfirmable(const SightFit& fit) const;
+  void hold(PeerState state, const SightFit& fit, const OwnView& own);
+  void reconsider(const OwnView& own, bool blocked, RelativeLocalizationCounters& counters);
+  PoseEstimate grown(const OwnView& own) const;
+
+  RelativeLocalizationOptions options_;
+  std::string name_;
+  MeetingSide side_;
+  std::deque<PlacedScan> keyframes_;
+  std::shared_ptr<const SurfaceMap> surfaces_;
+  Hypotheses hypotheses_;
+  SurfaceVerdict verdict_;  // on the best hypothesis
+  PeerState state_ = PeerState::kUnknown;
+  std::optional<HeldPose> held_;
+  bool changed_ = false;                // something came since the last weighing
+  int surface_contradictions_ = 0;      // [-] checks in a row that spoke against the held pose
+  double newest_used_ = -1e18;          // [s] sights up to this have been proposed
+  double last_weighed_ = -1e18;         // [s]
+  double last_search_ = -1e18;          // [s]
+  double searched_own_travel_ = -1e18;  // [m]
+  int searched_id_ = -1;                // [-] newest keyframe that was searched with
+  double travel_ = 0.0;                 // [m]
+};
+
+}  // namespace parley

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "rooms.h"
+
+namespace parley {
+namespace {
+
+using test::Actor;
+using test::Stage;
+
+void expectRight(const Stage& stage, std::size_t i, std::size_t j) {
+  const Pose2 error = stage.errorOf(i, j);
+  EXPECT_LT(error.position().norm(), 0.08);
+  EXPECT_LT(std::abs(error.yaw), radians(1.5));
+}
+
+/// Steps until robot 0 has confirmed robot 1 or the time is over.
+bool confirms(Stage& stage, double seconds, const std::string& name = "b") {
+  for (const double end = stage.now() + seconds; stage.now() < end;) {
+    stage.step();
+    if (stage.estimate(0, name).state == PeerState::kConfirmed) return true;
+  }
+  return false;
+}
+
+/// Two robots that drive towards each other in the room, a little off each other's line.
+Stage roomMeeting(unsigned seed = 1) {
+  Stage stage(test::segmentWorld(test::distinctiveRoom()), seed);
+  stage.reserve(3);
+  stage.add("a", {1.5, 2.8, 0.1}).twist = {1.0, 0.05};
+  stage.add("b", {7.0, 3.4, 3.1}).twist = {0.8, -0.1};
+  return stage;
+}
+
+}  // namespace
+
+TEST(Encounter, isConfirmedSoonInARoom) {
+  for (unsigned seed = 1; seed < 6; ++seed) {
+    Stage stage = roomMeeting(seed);
+    ASSERT_TRUE(confirms(stage, 3.0)) << seed;
+    expectRight(stage, 0, 1);
+    const PeerEstimate estimate = stage.estimate(0, "b");
+    EXPECT_TRUE(estimate.direct);
+    EXPECT_TRUE(isCovariance(estimate.T_odom_peerodom.covariance));
+    EXPECT_LT(estimate.age, 0.5);
+    EXPECT_GT(estimate.support, 4);
+  }
+}
+
+TEST(Encounter, isConfirmedInACorridorByMotionAlone) {
+  Stage stage(test::segmentWorld(test::corridor()));
+  stage.reserve(2);
+  stage.add("a", {0.0, 0.6, 0.0}).twist = {1.0, 0.0};
+  stage.add("b", {6.0, 1.4, kPi}).twist = {1.0, 0.0};
+  ASSERT_TRUE(confirms(stage, 3.0));
+  expectRight(stage, 0, 1);
+}
+
+TEST(Encounter, standingRobotsAreNeverConfirmed) {
+  Stage stage = roomMeeting();
+  stage.actor(0).T_world_base = {3.0, 2.8, 0.1};
+  stage.actor(1).T_world_base = {5.5, 3.2, 2.0};
+  stage.actor(0).twist = stage.actor(1).twist = {};
+  EXPECT_FALSE(confirms(stage, 10.0));
+  EXPECT_EQ(stage.estimate(0, "b").state, PeerState::kTentative);
+  expectRight(stage, 0, 1);
+}
+
+TEST(Encounter, aQueueWithASilentRobotInTheMiddleIsNoEncounter) {
+  Stage stage(test::segmentWorld(test::corridor()));
+  stage.reserve(3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    stage.add(std::string(1, static_cast<char>('a' + i)), {2.0 * static_cast<double>(i), 1.0, 0.0}).twist = {0.8, 0.0};
+  }
+  stage.links = {{0, 2}, {2, 0}};
+  EXPECT_FALSE(confirms(stage, 12.0, "c"));  // two metres ahead of a it sees b, and c sees b two metres behind
+}
+
+TEST(Encounter, aQueueThatTalksIsNotMixedUp) {
+  Stage stage(test::segmentWorld(test::corridor()));
+  stage.reserve(3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    stage.add(std::string(1, static_cast<char>('a' + i)), {2.0 * static_cast<double>(i), 1.0, 0.0});
+  }
+  for (int step = 0; step < 100; ++step) {
+    for (std::size_t i = 0; i < 3; ++i) stage.actor(i).twist = {0.8 + 0.5 * std::sin(0.1 * step - static_cast<double>(i)), 0.0};
+    stage.step();
+    if (stage.estimate(0, "b").state == PeerState::kConfirmed) expectRight(stage, 0, 1);
+    if (stage.estimate(0, "c").state == PeerState::kConfirmed) expectRight(stage, 0, 2);
+  }
+}
+
+TEST(Encounter, robotsInTheSameKindOfRoomElsewhereAreNot) {
+  for (const bool mirrored : {false, true}) {
+    // Another room 30 m away, the same or its mirror image; each talking robot meets a silent one.
+    std::vector<test::WallSegment> walls = test::distinctiveRoom();
+    for (const test::WallSegment& wall : test::distinctiveRoom()) {
+      const auto moved = [&](const Eigen::Vector2d& p) {
+        return Eigen::Vector2d(30.0 + (mirrored ? 9.0 - p.x() : p.x()), p.y());
+      };
+      walls.push_back({moved(wall.a), moved(wall.b)});
+    }
+    Stage stage(test::segmentWorld(walls));
+    stage.reserve(4);
+    stage.add("a", {1.5, 2.8, 0.1}).twist = {1.0, 0.1};
+    stage.add("b", {36.5, 3.4, 3.0}).twist = {0.9, 0.1};
+    stage.add("c", {6.5, 3.6, 3.0}).twist = {0.7, -0.2};
+    stage.add("d", {31.5, 2.5, 0.2}).twist = {1.1, 0.15};
+    stage.links = {{0, 1}, {1, 0}};
+    EXPECT_FALSE(confirms(stage, 4.0)) << mirrored;
+  }
+}
+
+TEST(Encounter, aWrongClockIsEstimated) {
+  for (const double offset : {-0.2, -0.1, 0.1, 0.2}) {
+    Stage stage = roomMeeting();
+    stage.actor(1).clock = offset;
+    if (!confirms(stage, 4.0)) continue;  // not to know is allowed, to be wrong is not
+    expectRight(stage, 0, 1);
+    EXPECT_NEAR(stage.estimate(0, "b").time_offset, offset, 0.06);
+  }
+}
+
+TEST(Encounter, sameInputsSameAnswers) {
+  Stage one = roomMeeting(4), two = roomMeeting(4);
+  for (int i = 0; i < 25; ++i) {
+    one.step();
+    two.step();
+    const PeerEstimate a = one.estimate(0, "b"), b = two.estimate(0, "b");
+    EXPECT_EQ(a.state, b.state);
+    EXPECT_TRUE(a.T_odom_peerodom.pose == b.T_odom_peerodom.pose);
+    EXPECT_TRUE(a.T_odom_peerodom.covariance == b.T_odom_peerodom.covariance);
+  }
+}
+
+TEST(Encounter, aContradictedPoseIsDemoted) {
+  Stage stage = roomMeeting();
+  ASSERT_TRUE(confirms(stage, 3.0));
+  stage.actor(0).twist = stage.actor(1).twist = {};
+  Actor& peer = stage.actor(1);
+  const Pose2 slipped = peer.odometry() * Pose2{0.0, 1.2, 0.0};  // its odometry believes that it was pushed aside
+  peer.T_world_odom = peer.T_world_base * slipped.inverse();
+  bool demoted = false;
+  for (int i = 0; i < 25 && !demoted; ++i) {
+    stage.step();
+    demoted = stage.estimate(0, "b").state != PeerState::kConfirmed;
+  }
+  EXPECT_TRUE(demoted);
+  EXPECT_GT(stage.actor(0).localization.counters().demotions, 0);
+}
+
+TEST(Encounter, uncertaintyGrowsUntilThePoseExpires) {
+  RelativeLocalizationOptions options;
+  options.expire_age = 20.0;
+  options.drift_translation = 0.1;
+  Stage stage(test::segmentWorld(test::distinctiveRoom()));
+  stage.reserve(2);
+  stage.add("a", {1.5, 2.8, 0.1}, options).twist = {1.0, 0.05};
+  stage.add("b", {7.0, 3.4, 3.1}).twist = {0.8, -0.1};
+  ASSERT_TRUE(confirms(stage, 3.0));
+  double last = stage.estimate(0, "b").T_odom_peerodom.covariance(0, 0);
+  stage.actor(0).twist = stage.actor(1).twist = {0.3, 1.5};
+  stage.actor(1).T_world_base = {60.0, 3.0, 0.0};
+  stage.actor(1).T_world_odom = stage.actor(1).T_world_base * Pose2{1.0, 0.0, 0.0};
+  bool was_tentative = false;
+  for (int i = 0; i < 400; ++i) {
+    stage.step(false);
+    const PeerEstimate estimate = stage.estimate(0, "b");
+    was_tentative = was_tentative || estimate.state == PeerState::kTentative;
+    if (estimate.state != PeerState::kConfirmed) continue;
+    if (i % 50 == 49) {
+      EXPECT_GT(estimate.T_odom_peerodom.covariance(0, 0), last);
+      last = estimate.T_odom_peerodom.covariance(0, 0);
+    }
+  }
+  EXPECT_EQ(stage.estimate(0, "b").state, PeerState::kUnknown);
+}
+
+TEST(Encounter, whoMeetsTwoJoinsThem) {
+  Stage stage = roomMeeting();
+  ASSERT_TRUE(confirms(stage, 3.0));
+  const Actor &a = stage.actor(0), &b = stage.actor(1);
+  const Pose2 T_world_codom{40.0, -3.0, 1.0}, T_world_c{44.0, 2.0, -2.0};
+  RelativeEdge edge;
+  edge.from = "c";
+  edge.to = "b";
+  edge.stamp = stage.now();
+  edge.T_odom_from = T_world_codom.inverse() * T_world_c;
+  edge.T_odom_to = b.odometry();
+  edge.travel_from = 3.0;
+  edge.travel_to = b.localization.travel();
+  edge.T_from_to = {T_world_c.inverse() * b.T_world_base, Eigen::Vector3d(1e-4, 1e-4, 1e-5).asDiagonal()};
+  stage.actor(0).localization.addEdge(edge);
+  for (int i = 0; i < 10; ++i) stage.step();
+  const PeerEstimate c = stage.estimate(0, "c");
+  ASSERT_EQ(c.state, PeerState::kConfirmed);
+  EXPECT_FALSE(c.direct);
+  const Pose2 truth = a.T_world_odom.inverse() * T_world_codom;
+  const Pose2 place = c.T_odom_peerodom.pose * edge.T_odom_from, true_place = truth * edge.T_odom_from;
+  EXPECT_LT((place.position() - true_place.position()).norm(), 1.0);
+  ASSERT_FALSE(a.localization.edges().empty());
+  EXPECT_EQ(a.localization.edges().front().to, "b");
+}
+
+TEST(Encounter, geometryAloneIsTentativeAtMost) {
+  // A pillar hides the robots from each other; they still tell what they see of the room.
+  Stage stage(test::segmentWorld(test::distinctiveRoom() + test::box({4.3, 1.2}, {4.7, 4.6})));
+  stage.reserve(2);
+  stage.add("a", {2.5, 2.0, 1.5}).twist = {0.4, 0.05};
+  stage.add("b", {6.3, 2.2, 1.5}).twist = {0.4, -0.05};
+  EXPECT_FALSE(confirms(stage, 6.0));
+  EXPECT_GT(stage.actor(0).localization.counters().global_searches, 2);
+  EXPECT_LE(stage.actor(0).localization.counters().global_searches, 7);
+  if (stage.estimate(0, "b").state == PeerState::kTentative) expectRight(stage, 0, 1);
+}
+
+}  // namespace parley
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
