@@ -167,13 +167,13 @@ class Run {
                         localizers_[1].travel()};
       message.sights = localizers_[1].sights(reported_);
       if (!message.sights.empty()) reported_ = message.sights.back().stamp;
-      if (state_ != PeerState::kConfirmed) {
+      if (state_ != PoseState::kConfirmed) {
         for (const SightReport& report : message.sights) {
           outcome_.bytes += kReportBytes + kBlobBytes * static_cast<double>(report.blobs.size());
         }
         for (const Keyframe& keyframe : localizers_[1].keyframes()) {
           // One now and then before anything is known of the other; all once it says that it may have been seen.
-          const bool is_due = state_heard_ >= PeerState::kCandidate || localizers_[1].travel() > told_travel_ + kRareKeyframe;
+          const bool is_due = state_heard_ >= PoseState::kCandidate || localizers_[1].travel() > told_travel_ + kRareKeyframe;
           if (arrived_.count(keyframe.id) > 0 || message.keyframes.size() >= 2 || !is_due) continue;
           told_travel_ = localizers_[1].travel();
           message.keyframes.push_back(keyframe);
@@ -204,8 +204,8 @@ class Run {
     if (estimates.empty()) return;
     const PeerEstimate& estimate = estimates.front();
     state_ = estimate.state;
-    outcome_.tentative = outcome_.tentative || state_ >= PeerState::kTentative;
-    if (state_ == PeerState::kConfirmed) judge(estimate, now);
+    outcome_.tentative = outcome_.tentative || state_ >= PoseState::kTentative;
+    if (state_ == PoseState::kConfirmed) judge(estimate, now);
   }
 
   void judge(const PeerEstimate& estimate, double now) {
@@ -259,7 +259,7 @@ class Run {
   int scans_in_sight_ = 0;
   bool have_met_ = false;
   double told_travel_ = -1e9;  // [m] robot 1's, when it last sent a keyframe
-  PeerState state_ = PeerState::kUnknown, state_heard_ = PeerState::kUnknown;
+  PoseState state_ = PoseState::kUnknown, state_heard_ = PoseState::kUnknown;
   Outcome outcome_;
 };
 

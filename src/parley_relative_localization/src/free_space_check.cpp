@@ -22,9 +22,9 @@ void vote(const Submap& judge, const Submap& other, const Pose2& T_judge_other, 
     ++result.points;
     bool seen_through = false, matched = false;
     for (const PlacedScan& placed : judge.scans()) {
-      const Sight sight = sightOf(placed, p, kMargin);
-      matched = matched || sight == Sight::kMatch;
-      seen_through = seen_through || sight == Sight::kSeenThrough;
+      const Sighting sight = sightOf(placed, p, kMargin);
+      matched = matched || sight == Sighting::kMatch;
+      seen_through = seen_through || sight == Sighting::kSeenThrough;
       if (matched) break;
     }
     result.matches += matched ? 1 : 0;

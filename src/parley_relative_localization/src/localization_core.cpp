@@ -110,11 +110,11 @@ void RelativeLocalization::Core::mergeGraph(double now, const std::string& peer_
   grown.covariance += covarianceOfPose(grown.pose, here, driftOver(way, options));
   const double deviation = deviationAt(grown, here);
   if (deviation > options.expire_deviation || now - known.stamp > options.expire_age) return;
-  const bool is_direct = estimate.state == PeerState::kConfirmed;
+  const bool is_direct = estimate.state == PoseState::kConfirmed;
   if (is_direct && deviation >= deviationAt(estimate.T_odom_peerodom, here)) return;
   estimate.T_odom_peerodom = grown;
   if (is_direct) return;
-  estimate.state = PeerState::kConfirmed;
+  estimate.state = PoseState::kConfirmed;
   estimate.direct = false;
   estimate.age = std::max(now - known.stamp, 0.0);
   estimate.support = known.edges;

@@ -122,7 +122,7 @@ bool PeerLocalizer::isImprovement(const SightFit& fit, const OwnView& own) const
   return is_better && step.dot(covariance.inverse() * step) < kReason;
 }
 
-void PeerLocalizer::hold(PeerState state, const SightFit& fit, const OwnView& own) {
+void PeerLocalizer::hold(PoseState state, const SightFit& fit, const OwnView& own) {
   const Pose2& T = fit.pose.T_odom_peerodom;
   HeldPose held;
   held.stamp = fit.solved ? fit.last : own.side.sights.back().stamp;
@@ -142,15 +142,15 @@ void PeerLocalizer::hold(PeerState state, const SightFit& fit, const OwnView& ow
 void PeerLocalizer::judge(double now, const OwnView& own, bool blocked, RelativeLocalizationCounters& counters) {
   if (held_) {
     const double age = now - held_->stamp;
-    const bool is_confirmed = state_ == PeerState::kConfirmed;
+    const bool is_confirmed = state_ == PoseState::kConfirmed;
     if (age > (is_confirmed ? options_.expire_age : kTentativeMemory)) {
       held_.reset();
-      state_ = PeerState::kUnknown;
+      state_ = PoseState::kUnknown;
     } else if (is_confirmed) {
       const Eigen::Vector2d here =
           own.side.sights.empty() ? Eigen::Vector2d(0.0, 0.0) : own.side.sights.back().T_odom_scan.position();
       const Eigen::Matrix3d covariance = covarianceAbout(grown(own), here);
-      if (std::sqrt(std::max(covariance(0, 0), covariance(1, 1))) > options_.expire_deviation) state_ = PeerState::kTentative;
+      if (std::sqrt(std::max(covariance(0, 0), covariance(1, 1))) > options_.expire_deviation) state_ = PoseState::kTentative;
     }
   }
   if (last_weighed_ == now) reconsider(own, blocked, counters);
@@ -158,8 +158,8 @@ void PeerLocalizer::judge(double now, const OwnView& own, bool blocked, Relative
 
 void PeerLocalizer::reconsider(const OwnView& own, bool blocked, RelativeLocalizationCounters& counters) {
   const int contradictions = std::max(hypotheses_.rememberedContradictions(), surface_contradictions_);
-  if (state_ == PeerState::kConfirmed && contradictions >= options_.demote_contradictions) {
-    state_ = PeerState::kCandidate;
+  if (state_ == PoseState::kConfirmed && contradictions >= options_.demote_contradictions) {
+    state_ = PoseState::kCandidate;
     surface_contradictions_ = 0;
     ++counters.demotions;
     return;
@@ -167,23 +167,23 @@ void PeerLocalizer::reconsider(const OwnView& own, bool blocked, RelativeLocaliz
   if (hypotheses_.empty()) return;
   const SightFit& fit = hypotheses_.best().fit;
   const bool is_confirmable = !blocked && isConfirmable(fit);
-  if (state_ == PeerState::kConfirmed) {
+  if (state_ == PoseState::kConfirmed) {
     const bool is_alike = isAlike(held_->T_odom_peerodom.pose, fit.pose.T_odom_peerodom, fit.center);
     if (is_confirmable && !is_alike) {  // the world says otherwise now
       ++counters.demotions;
-      hold(PeerState::kTentative, fit, own);
+      hold(PoseState::kTentative, fit, own);
     } else if (is_alike && isGood(fit) && fit.isMutual(3, 3) && verdict_.agrees && isImprovement(fit, own)) {
-      hold(PeerState::kConfirmed, fit, own);
+      hold(PoseState::kConfirmed, fit, own);
     }
     return;
   }
   const bool is_seen = fit.isMutual(2, 2) && !hypotheses_.hasRival() && !blocked;
   if (is_confirmable) {
-    hold(PeerState::kConfirmed, fit, own);
+    hold(PoseState::kConfirmed, fit, own);
   } else if (fit.contradictions == 0 && (is_seen || hypotheses_.best().surface_matches >= 2)) {
-    hold(PeerState::kTentative, fit, own);
-  } else if (fit.isMutual(1, 1) && state_ != PeerState::kTentative) {
-    hold(PeerState::kCandidate, fit, own);
+    hold(PoseState::kTentative, fit, own);
+  } else if (fit.isMutual(1, 1) && state_ != PoseState::kTentative) {
+    hold(PoseState::kCandidate, fit, own);
   }
 }
 
@@ -203,7 +203,7 @@ PoseEstimate PeerLocalizer::grown(const OwnView& own) const {
 PeerEstimate PeerLocalizer::estimate(double now, const OwnView& own) const {
   PeerEstimate result;
   result.peer = name_;
-  if (!held_ || state_ == PeerState::kUnknown) return result;
+  if (!held_ || state_ == PoseState::kUnknown) return result;
   result.state = state_;
   result.T_odom_peerodom = grown(own);
   result.age = std::max(now - held_->stamp, 0.0);
@@ -217,12 +217,12 @@ std::optional<PeerLocalizer::Claim> PeerLocalizer::claim(double now) const {
   const SightFit& fit = hypotheses_.best().fit;
   const auto motion = side_.motion.at(std::min(now, fit.last) + fit.pose.time_offset);
   if (!motion || now - fit.last > 1.0) return std::nullopt;
-  return Claim{fit.pose.T_odom_peerodom * motion->pose.position(), fit.score(), state_ == PeerState::kConfirmed};
+  return Claim{fit.pose.T_odom_peerodom * motion->pose.position(), fit.score(), state_ == PoseState::kConfirmed};
 }
 
 std::shared_ptr<const SurfaceMap> PeerLocalizer::surfacesToSearch(const OwnView& own) const {
   const bool is_seen = !hypotheses_.empty() && hypotheses_.best().fit.isMutual(1, 1);
-  if (is_seen || state_ == PeerState::kConfirmed || keyframes_.empty()) return nullptr;
+  if (is_seen || state_ == PoseState::kConfirmed || keyframes_.empty()) return nullptr;
   const bool has_moved = own.travel - searched_own_travel_ >= options_.keyframe_distance;
   return has_moved || keyframes_.back().id != searched_id_ ? surfaces_ : nullptr;
 }
@@ -237,7 +237,7 @@ void PeerLocalizer::setSearched(double now, const std::optional<Pose2>& found, c
 }
 
 std::optional<RelativeEdge> PeerLocalizer::edge(const std::string& own_name, const OwnView& own) const {
-  if (state_ != PeerState::kConfirmed || !held_) return std::nullopt;
+  if (state_ != PoseState::kConfirmed || !held_) return std::nullopt;
   const auto here = own.side.motion.at(held_->stamp);
   const auto there = side_.motion.at(held_->stamp + held_->time_offset);
   if (!here || !there) return std::nullopt;

@@ -45,7 +45,7 @@ class PeerLocalizer {
   void judge(double now, const OwnView& own, bool blocked, RelativeLocalizationCounters& counters);
 
   const std::string& name() const { return name_; }
-  PeerState state() const { return state_; }
+  PoseState state() const { return state_; }
   PeerEstimate estimate(double now, const OwnView& own) const;
   /// Where the peer is now if its best hypothesis is right, with that hypothesis' support; nullopt without mutual support.
   struct Claim {
@@ -68,7 +68,7 @@ class PeerLocalizer {
   bool isGood(const SightFit& fit) const;
   bool isImprovement(const SightFit& fit, const OwnView& own) const;
   bool isConfirmable(const SightFit& fit) const;
-  void hold(PeerState state, const SightFit& fit, const OwnView& own);
+  void hold(PoseState state, const SightFit& fit, const OwnView& own);
   void reconsider(const OwnView& own, bool blocked, RelativeLocalizationCounters& counters);
   PoseEstimate grown(const OwnView& own) const;
 
@@ -79,7 +79,7 @@ class PeerLocalizer {
   std::shared_ptr<const SurfaceMap> surfaces_;
   Hypotheses hypotheses_;
   SurfaceVerdict verdict_;  // on the best hypothesis
-  PeerState state_ = PeerState::kUnknown;
+  PoseState state_ = PoseState::kUnknown;
   std::optional<HeldPose> held_;
   bool changed_ = false;                // something came since the last weighing
   int surface_contradictions_ = 0;      // [-] checks in a row that spoke against the held pose

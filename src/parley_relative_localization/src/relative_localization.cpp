@@ -20,7 +20,7 @@ void checkConfiguration(const RelativeLocalizationOptions& options, const std::s
 
 }  // namespace
 
-const char* toString(PeerState state) {
+const char* toString(PoseState state) {
   constexpr const char* kNames[] = {"unknown", "candidate", "tentative", "confirmed"};
   return kNames[static_cast<int>(state)];
 }

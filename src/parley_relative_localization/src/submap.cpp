@@ -52,10 +52,10 @@ Eigen::Vector2d normalAt(const PolarScan& scan, int bin) {
 
 }  // namespace
 
-Sight sightOf(const PlacedScan& placed, const Eigen::Vector2d& p_odom, double margin) {
+Sighting sightOf(const PlacedScan& placed, const Eigen::Vector2d& p_odom, double margin) {
   const Eigen::Vector2d p = placed.T_odom_scan.inverse() * p_odom;
   const double range = p.norm();
-  if (range > placed.scan.range_max || range < 0.05) return Sight::kNothing;
+  if (range > placed.scan.range_max || range < 0.05) return Sighting::kNothing;
   const int bin = PolarScan::binOf(std::atan2(p.y(), p.x()));
   const double slack = kSameRange + kRangeShare * range;
   bool seen_through = true;
@@ -66,10 +66,10 @@ Sight sightOf(const PlacedScan& placed, const Eigen::Vector2d& p_odom, double ma
       continue;
     }
     const double seen = placed.scan.rangeAt(wrapped);
-    if (placed.scan.isHit(wrapped) && std::abs(seen - range) < slack) return Sight::kMatch;
+    if (placed.scan.isHit(wrapped) && std::abs(seen - range) < slack) return Sighting::kMatch;
     if (seen < range + kSeenThrough + margin + kRangeShare * range) seen_through = false;
   }
-  return seen_through ? Sight::kSeenThrough : Sight::kNothing;
+  return seen_through ? Sighting::kSeenThrough : Sighting::kNothing;
 }
 
 Submap::Submap(std::vector<PlacedScan> scans) : scans_(std::move(scans)) {
@@ -90,9 +90,9 @@ bool Submap::isContradicted(const Eigen::Vector2d& point, std::size_t own_scan) 
   bool seen_through = false;
   for (std::size_t i = 0; i < scans_.size(); ++i) {
     if (i == own_scan) continue;
-    const Sight sight = sightOf(scans_[i], point);
-    if (sight == Sight::kMatch) return false;
-    seen_through = seen_through || sight == Sight::kSeenThrough;
+    const Sighting sight = sightOf(scans_[i], point);
+    if (sight == Sighting::kMatch) return false;
+    seen_through = seen_through || sight == Sighting::kSeenThrough;
   }
   return seen_through;
 }

@@ -23,10 +23,10 @@ struct SurfacePoint {
 };
 
 /// What a scan says of a point.
-enum class Sight { kNothing, kMatch, kSeenThrough };
+enum class Sighting { kNothing, kMatch, kSeenThrough };
 
 /// Match: the scan's surface is there. Seen through: it looked on behind the point, by the neighbouring bins too.
-Sight sightOf(const PlacedScan& placed, const Eigen::Vector2d& p_odom, double margin = 0.0);
+Sighting sightOf(const PlacedScan& placed, const Eigen::Vector2d& p_odom, double margin = 0.0);
 
 /// Scans of one robot in its odom frame, without the points that another of the scans saw through and none saw again:
 /// what moves, another robot above all.

@@ -19,7 +19,7 @@ void expectRight(const Stage& stage, std::size_t i, std::size_t j) {
 bool confirms(Stage& stage, double seconds, const std::string& name = "b") {
   for (const double end = stage.now() + seconds; stage.now() < end;) {
     stage.step();
-    if (stage.estimate(0, name).state == PeerState::kConfirmed) return true;
+    if (stage.estimate(0, name).state == PoseState::kConfirmed) return true;
   }
   return false;
 }
@@ -63,7 +63,7 @@ TEST(Encounter, standingRobotsAreNeverConfirmed) {
   stage.actor(1).T_world_base = {5.5, 3.2, 2.0};
   stage.actor(0).twist = stage.actor(1).twist = {};
   EXPECT_FALSE(confirms(stage, 10.0));
-  EXPECT_EQ(stage.estimate(0, "b").state, PeerState::kTentative);
+  EXPECT_EQ(stage.estimate(0, "b").state, PoseState::kTentative);
   expectRight(stage, 0, 1);
 }
 
@@ -86,8 +86,8 @@ TEST(Encounter, aQueueThatTalksIsNotMixedUp) {
   for (int step = 0; step < 100; ++step) {
     for (std::size_t i = 0; i < 3; ++i) stage.actor(i).twist = {0.8 + 0.5 * std::sin(0.1 * step - static_cast<double>(i)), 0.0};
     stage.step();
-    if (stage.estimate(0, "b").state == PeerState::kConfirmed) expectRight(stage, 0, 1);
-    if (stage.estimate(0, "c").state == PeerState::kConfirmed) expectRight(stage, 0, 2);
+    if (stage.estimate(0, "b").state == PoseState::kConfirmed) expectRight(stage, 0, 1);
+    if (stage.estimate(0, "c").state == PoseState::kConfirmed) expectRight(stage, 0, 2);
   }
 }
 
@@ -144,7 +144,7 @@ TEST(Encounter, aContradictedPoseIsDemoted) {
   bool demoted = false;
   for (int i = 0; i < 25 && !demoted; ++i) {
     stage.step();
-    demoted = stage.estimate(0, "b").state != PeerState::kConfirmed;
+    demoted = stage.estimate(0, "b").state != PoseState::kConfirmed;
   }
   EXPECT_TRUE(demoted);
   EXPECT_GT(stage.actor(0).localization.counters().demotions, 0);
@@ -167,14 +167,14 @@ TEST(Encounter, uncertaintyGrowsUntilThePoseExpires) {
   for (int i = 0; i < 400; ++i) {
     stage.step(false);
     const PeerEstimate estimate = stage.estimate(0, "b");
-    was_tentative = was_tentative || estimate.state == PeerState::kTentative;
-    if (estimate.state != PeerState::kConfirmed) continue;
+    was_tentative = was_tentative || estimate.state == PoseState::kTentative;
+    if (estimate.state != PoseState::kConfirmed) continue;
     if (i % 50 == 49) {
       EXPECT_GT(estimate.T_odom_peerodom.covariance(0, 0), last);
       last = estimate.T_odom_peerodom.covariance(0, 0);
     }
   }
-  EXPECT_EQ(stage.estimate(0, "b").state, PeerState::kUnknown);
+  EXPECT_EQ(stage.estimate(0, "b").state, PoseState::kUnknown);
 }
 
 TEST(Encounter, whoMeetsTwoJoinsThem) {
@@ -194,7 +194,7 @@ TEST(Encounter, whoMeetsTwoJoinsThem) {
   stage.actor(0).localization.addEdge(edge);
   for (int i = 0; i < 10; ++i) stage.step();
   const PeerEstimate c = stage.estimate(0, "c");
-  ASSERT_EQ(c.state, PeerState::kConfirmed);
+  ASSERT_EQ(c.state, PoseState::kConfirmed);
   EXPECT_FALSE(c.direct);
   const Pose2 truth = a.T_world_odom.inverse() * T_world_codom;
   const Pose2 place = c.T_odom_peerodom.pose * edge.T_odom_from, true_place = truth * edge.T_odom_from;
@@ -212,7 +212,7 @@ TEST(Encounter, geometryAloneIsTentativeAtMost) {
   EXPECT_FALSE(confirms(stage, 6.0));
   EXPECT_GT(stage.actor(0).localization.counters().global_searches, 2);
   EXPECT_LE(stage.actor(0).localization.counters().global_searches, 7);
-  if (stage.estimate(0, "b").state == PeerState::kTentative) expectRight(stage, 0, 1);
+  if (stage.estimate(0, "b").state == PoseState::kTentative) expectRight(stage, 0, 1);
 }
 
 }  // namespace parley

@@ -83,7 +83,7 @@ TEST(Input, peersAreBounded) {
   for (const char* name : {"a", "b", "c", "d", ""}) localization.addPeerMotion(name, motionAt(1.0));
   EXPECT_EQ(localization.counters().refused_peers, 3);
   EXPECT_EQ(localization.step(1.0).size(), 2U);
-  EXPECT_EQ(localization.step(1.0).front().state, PeerState::kUnknown);
+  EXPECT_EQ(localization.step(1.0).front().state, PoseState::kUnknown);
   localization.forget("b");
   EXPECT_EQ(localization.step(1.1).size(), 1U);
   localization.reset();
@@ -96,7 +96,7 @@ TEST(Input, edgesOfStrangersPlaceNobody) {
   localization.addEdge(goodEdge());
   EXPECT_TRUE(localization.step(1.0).empty());
   EXPECT_TRUE(localization.edges().empty());
-  EXPECT_STREQ(toString(PeerState::kTentative), "tentative");
+  EXPECT_STREQ(toString(PoseState::kTentative), "tentative");
 }
 
 TEST(Input, keyframesAreTakenOnTheWay) {

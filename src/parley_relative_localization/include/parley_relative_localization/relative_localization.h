@@ -13,14 +13,14 @@
 namespace parley {
 
 /// How far a relative pose is to be trusted. Only confirmed ones make obstacles and maps.
-enum class PeerState { kUnknown, kCandidate, kTentative, kConfirmed };
+enum class PoseState { kUnknown, kCandidate, kTentative, kConfirmed };
 
-const char* toString(PeerState state);
+const char* toString(PoseState state);
 
 /// What is known of one peer. With kUnknown only `peer` means anything: "do not know" is a normal answer.
 struct PeerEstimate {
   std::string peer;
-  PeerState state = PeerState::kUnknown;
+  PoseState state = PoseState::kUnknown;
   PoseEstimate T_odom_peerodom;
   double age = 0.0;          // [s] since the last evidence for it
   int support = 0;           // [-] sightings and matches that agree with it
