@@ -68,9 +68,11 @@ std::vector<std::string> loadConfig(const std::string& directory, RobotOptions& 
   bool any = loadStage(folder / "wiring.yaml", options.wiring, problems);
   any = loadStage(folder / "lidar.yaml", options.lidar, problems) || any;
   any = loadStage(folder / "topology.yaml", options.topology, problems) || any;
+  any = loadStage(folder / "relative_localization.yaml", options.relative_localization, problems) || any;
+  any = loadStage(folder / "exchange.yaml", options.exchange, problems) || any;
   any = loadStage(folder / "planner.yaml", options.planner, problems) || any;
   any = loadStage(folder / "control.yaml", options.control, problems) || any;
-  if (!any) problems.push_back(directory + ": has none of wiring, lidar, topology, planner or control.yaml");
+  if (!any) problems.push_back(directory + ": has none of the stages' files, such as topology.yaml");
   return problems;
 }
 
@@ -83,6 +85,8 @@ std::vector<std::string> checkRobot(const RobotOptions& options) {
   collect(options.wiring, options.name + ": wiring", problems);
   collect(options.lidar, options.name + ": lidar", problems);
   collect(options.topology, options.name + ": topology", problems);
+  collect(options.relative_localization, options.name + ": relative_localization", problems);
+  collect(options.exchange, options.name + ": exchange", problems);
   collect(options.planner, options.name + ": planner", problems);
   collect(options.control, options.name + ": control", problems);
   return problems;

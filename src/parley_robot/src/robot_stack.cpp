@@ -6,7 +6,8 @@
 namespace parley {
 namespace {
 
-constexpr double kTimeReset = 1.0;  // [s] going back by more means that time started again
+constexpr double kTimeReset = 1.0;               // [s] going back by more means that time started again
+constexpr std::uint32_t kRestartsPerBoot = 256;  // [-]
 
 RobotOptions usable(const RobotOptions& options) {
   std::string all;
@@ -26,7 +27,18 @@ RobotStack::RobotStack(const RobotOptions& options)
       controller_(options.control, options.footprint, options.limits),
       goal_(options.goal_tolerance, options.wiring.arrival_hysteresis),
       topology_timer_(options.wiring.topology_rate),
-      plan_trigger_(options.wiring.plan_rate) {}
+      plan_trigger_(options.wiring.plan_rate) {
+  joinTeam();
+}
+
+/// What is told is in this odom frame: when it is another one, so is the boot.
+void RobotStack::joinTeam() {
+  if (options_.variant == Variant::kReactive) return;
+  const ExchangeIdentity identity{options_.name, options_.boot * kRestartsPerBoot + restarts_ % kRestartsPerBoot, options_.key,
+                                  options_.footprint, options_.limits};
+  ++restarts_;
+  team_.emplace(options_.exchange, options_.relative_localization, identity, options_.variant != Variant::kNoSharing);
+}
 
 bool RobotStack::setGoal(const Eigen::Vector2d& goal_odom) {
   if (!goal_.set(goal_odom)) return false;
@@ -75,6 +87,7 @@ RobotOutput RobotStack::step(double now) {
 
   RobotOutput output;
   sense(output.times);
+  meetTeam(now, output.times);
   updateTopology(now, output.times);
   planMotion(now, output.times);
   const ControlResult drive = driveWheels(now, output.times);
@@ -82,6 +95,7 @@ RobotOutput RobotStack::step(double now) {
   output.twist = drive.twist;
   output.state = drive.state;
   output.reason = drive.reason;
+  output.packets = talk(now, drive.state);
   output.replans = plan_.count();
   output.route_switches = route_.switches;
   return output;
@@ -89,12 +103,13 @@ RobotOutput RobotStack::step(double now) {
 
 void RobotStack::sense(StageTimes& times) {
   if (std::holds_alternative<std::monostate>(pending_scan_) || odometry_.empty()) return;
+  const std::vector<KnownTeammate> bodies = team_ ? team_->bodies(odometry_.latest().stamp) : std::vector<KnownTeammate>{};
   LidarResult result;
   times.lidar = timed([&] {
     if (const auto* scan = std::get_if<RangeScan>(&pending_scan_)) {
-      result = lidar_.process(*scan, odometry_, {});
+      result = lidar_.process(*scan, odometry_, bodies);
     } else {
-      result = lidar_.process(std::get<LidarCloud>(pending_scan_), odometry_, {});
+      result = lidar_.process(std::get<LidarCloud>(pending_scan_), odometry_, bodies);
     }
   });
   pending_scan_ = std::monostate{};
@@ -109,13 +124,30 @@ void RobotStack::sense(StageTimes& times) {
   times.map_fusion = timed([&] { topology_.integrate(lidar_result_.scan, *T_odom_scan_); });
 }
 
+void RobotStack::meetTeam(double now, StageTimes& times) {
+  if (team_) {
+    for (const Packet& packet : received_) team_->addPacket(packet, now);
+  }
+  received_.clear();
+  if (!team_ || !scan_is_new_) return;
+  times.relative_localization = timed([&] {
+    team_->addScan(*T_odom_scan_, lidar_result_.scan, now);
+    team_->locate(now);
+  });
+}
+
 void RobotStack::updateTopology(double now, StageTimes& times) {
   if (odometry_.empty() || !T_odom_scan_ || !topology_timer_.due(now)) return;
   if (options_.variant == Variant::kReactive) {
     route_ = straightRoute();
     return;
   }
+  const double drawing = timed([&] {
+    if (team_) team_->drawMaps(topology_, odometry_.latest().pose, now);
+  });
+  times.map_fusion = std::max(0.0, times.map_fusion) + drawing;
   times.topology = timed([&] { topology_.update(); });
+  if (team_) team_->tellMap(topology_, now);
   if (!goal_.goal()) return;
   times.route = timed([&] { route_ = topology_.route(odometry_.latest().pose, *goal_.goal()); });
 }
@@ -164,6 +196,11 @@ ControlResult RobotStack::driveWheels(double now, StageTimes& times) {
   return result;
 }
 
+std::vector<Packet> RobotStack::talk(double now, DriveState state) {
+  if (!team_ || odometry_.empty()) return {};
+  return team_->step(now, odometry_.latest(), plan_.trajectory(), state);
+}
+
 Route RobotStack::straightRoute() const {
   Route route;
   if (!goal_.goal()) return route;
@@ -180,7 +217,10 @@ void RobotStack::forgetMap() {
   plan_.clear();
   controller_.reset();
   T_odom_scan_.reset();
+  scan_is_new_ = false;
+  received_.clear();
   route_ = {};
+  joinTeam();
 }
 
 void RobotStack::startAnew() {

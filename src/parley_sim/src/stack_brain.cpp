@@ -26,6 +26,7 @@ RobotOptions optionsFor(RobotOptions options, const RobotSpec& spec, double goal
   options.mount.z = spec.lidar.height;
   options.mount.yaw = wrapAngle(spec.lidar.pose.yaw);
   options.goal_tolerance = goal_tolerance;
+  options.key = simulatedTeamKey(1);
   return options;
 }
 
@@ -39,6 +40,7 @@ class StackBrain : public Brain {
     if (readings.odometry) stack_.addOdometry(*readings.odometry);
     if (readings.scan) stack_.addScan(*readings.scan);
     if (readings.cloud) stack_.addCloud(*readings.cloud);
+    for (const Payload& bytes : readings.packets) stack_.addPacket({bytes});
     const RobotOutput robot = stack_.step(readings.clock);
     BrainOutput output;
     output.twist = robot.twist;

@@ -5,10 +5,13 @@
 #include <vector>
 
 #include "parley_control/controller.h"
+#include "parley_exchange/exchange_options.h"
+#include "parley_exchange/team_key.h"
 #include "parley_geometry/footprint.h"
 #include "parley_geometry/motion.h"
 #include "parley_lidar/lidar_stage.h"
 #include "parley_planner/planner.h"
+#include "parley_relative_localization/relative_localization_options.h"
 #include "parley_topology/topology.h"
 
 namespace parley {
@@ -47,9 +50,13 @@ struct RobotOptions {
   LidarMount mount;
   double goal_tolerance = 0.3;  // [m]
   Variant variant = Variant::kFull;
+  TeamKey key{};           // what all of a team share
+  std::uint32_t boot = 1;  // [-] below 2^24; higher at each start
   WiringOptions wiring;
   LidarOptions lidar;
   TopologyOptions topology;
+  RelativeLocalizationOptions relative_localization;
+  ExchangeOptions exchange;
   PlannerOptions planner;
   ControlOptions control;
 };

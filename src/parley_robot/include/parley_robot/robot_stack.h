@@ -13,6 +13,7 @@
 #include "parley_robot/periodic.h"
 #include "parley_robot/robot_options.h"
 #include "parley_robot/stage_times.h"
+#include "parley_robot/team_link.h"
 
 namespace parley {
 
@@ -52,6 +53,9 @@ class RobotStack {
   void addScan(const RangeScan& scan);
   void addCloud(const LidarCloud& cloud);
 
+  /// What the radio received; taken up in the next step.
+  void addPacket(const Packet& packet) { received_.push_back(packet); }
+
   /// One turn of the loop at the robot's own time [s]; call it at the control rate, after the sensors.
   RobotOutput step(double now);
 
@@ -61,13 +65,18 @@ class RobotStack {
   const PlanResult& lastPlan() const { return last_plan_; }
   const Route& route() const { return route_; }
   const LidarResult& lidar() const { return lidar_result_; }
+  /// Null in the variant that does not talk.
+  const TeamLink* team() const { return team_ ? &*team_ : nullptr; }
   const RobotCounters& counters() const { return counters_; }
 
  private:
   void sense(StageTimes& times);
+  void meetTeam(double now, StageTimes& times);
   void updateTopology(double now, StageTimes& times);
   void planMotion(double now, StageTimes& times);
   ControlResult driveWheels(double now, StageTimes& times);
+  std::vector<Packet> talk(double now, DriveState state);
+  void joinTeam();
   void forgetMap();
   void startAnew();
   Route straightRoute() const;
@@ -78,11 +87,14 @@ class RobotStack {
   Topology topology_;
   Planner planner_;
   Controller controller_;
+  std::optional<TeamLink> team_;
   GoalTracker goal_;
   CommittedPlan plan_;
   Periodic topology_timer_;
   PlanTrigger plan_trigger_;
 
+  std::vector<Packet> received_;
+  std::uint32_t restarts_ = 0;  // [-] each makes it another robot on the radio, with another odom frame
   std::variant<std::monostate, RangeScan, LidarCloud> pending_scan_;
   LidarResult lidar_result_;
   bool scan_is_new_ = false;  // nothing has been planned on it yet

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "parley_robot/team_link.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <cstdio>
+
+namespace parley {
+namespace {
+
+constexpr double kKeyframeSpacing = 1.5;  // [m] between keyframes that are told
+constexpr double kMapPeriod = 1.0;        // [s] between two tellings and two drawings of maps
+constexpr double kHardSigma = 0.15;       // [m] outlines known better than this are obstacles,
+constexpr double kHardStays = 0.2;        // [m] and stay so up to here
+constexpr double kSoftSigma = 0.6;        // [m] outlines less certain than this are of no use
+constexpr double kMovedBy = 0.05;         // [m] of outlines some metres off: they are drawn anew
+constexpr double kMovedYaw = 0.01;        // [rad]
+constexpr double kFreshBeacon = 0.5;      // [s] a body is where its last beacon, younger than this, says
+constexpr double kBodyMargin = 0.05;      // [m] beyond the pose's deviation
+
+/// What relative localization calls a robot.
+std::string nameOf(RobotId id) {
+  char text[16];
+  std::snprintf(text, sizeof(text), "%08x", id);
+  return text;
+}
+
+double deviation(const Eigen::Matrix2d& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance, Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff()));
+}
+
+EdgeState edgeStateOf(PoseState state) {
+  if (state == PoseState::kConfirmed) return EdgeState::kConfirmed;
+  return state == PoseState::kTentative ? EdgeState::kTentative : EdgeState::kWithdrawn;
+}
+
+std::int64_t keyOf(const Contour& contour) {
+  return (static_cast<std::int64_t>(contour.tile.x()) * 65536 + contour.tile.y()) * 4096 + contour.piece;
+}
+
+}  // namespace
+
+TeamLink::TeamLink(const ExchangeOptions& exchange, const RelativeLocalizationOptions& relative_localization,
+                   const ExchangeIdentity& identity, bool share_maps)
+    : share_maps_(share_maps),
+      exchange_(exchange, identity),
+      localization_(relative_localization, nameOf(robotIdOf(identity.name)), identity.footprint) {}
+
+void TeamLink::addPacket(const Packet& packet, double now) { exchange_.addPacket(packet.bytes, now); }
+
+void TeamLink::addScan(const Pose2& T_odom_base, const ObstacleScan& scan, double now) {
+  localization_.addOwnScan(T_odom_base, scan);
+  for (const Keyframe& keyframe : localization_.keyframes()) {  // newest first
+    const bool far = !told_keyframe_ || (*told_keyframe_ - keyframe.T_odom_scan.position()).norm() > kKeyframeSpacing;
+    if (far && exchange_.publishKeyframe(keyframe.descriptor, keyframe.T_odom_scan, keyframe.stamp, now)) {
+      told_keyframe_ = keyframe.T_odom_scan.position();
+    }
+    break;
+  }
+  const std::vector<SightReport> reports = localization_.sights(told_sights_);
+  if (reports.empty()) return;
+  const SightReport& report = reports.back();
+  ObservationMessage message;
+  message.pose = report.T_odom_scan;
+  for (const SightedBlob& blob : report.blobs) {
+    message.blobs.push_back({blob.position.norm(), std::atan2(blob.position.y(), blob.position.x()), blob.chord});
+  }
+  told_sights_ = report.stamp;
+  exchange_.setObservations(message, report.stamp);
+}
+
+void TeamLink::hear(const PeerState& peer, double now) {
+  Teammate& teammate = teammates_[peer.id];
+  teammate.id = peer.id;
+  if (!peer.name.empty()) teammate.name = peer.name;
+  if (!peer.clock_known) return;
+  Heard& heard = heard_[peer.id];
+  const std::string name = nameOf(peer.id);
+  if (peer.odometry.stamp > heard.motion) {
+    heard.motion = peer.odometry.stamp;
+    localization_.addPeerMotion(name, {peer.odometry.stamp, peer.odometry.pose, peer.odometry.twist, peer.footprint,
+                                       travelOf(peer.id, peer.odometry.pose)});
+  }
+  if (const std::optional<PeerObservations> sights = exchange_.observationsOf(peer.id, now);
+      sights && sights->stamp > heard.sights) {
+    heard.sights = sights->stamp;
+    SightReport report{sights->stamp, sights->pose, {}};
+    for (const Observation& o : sights->blobs) {
+      report.blobs.push_back({{o.range * std::cos(o.bearing), o.range * std::sin(o.bearing)}, o.chord});
+    }
+    localization_.addPeerSights(name, report);
+  }
+  for (const SharedKeyframe& keyframe : exchange_.keyframesOf(peer.id, now)) {
+    if (keyframe.id < heard.next_keyframe) continue;
+    heard.next_keyframe = keyframe.id + 1;
+    localization_.addPeerKeyframe(name, {static_cast<int>(keyframe.id), keyframe.stamp, keyframe.pose, keyframe.descriptor});
+  }
+}
+
+/// Way of a robot by its anchors: an odometer that all who hear it read alike. [m]
+double TeamLink::travelOf(RobotId origin, const Pose2& T_odom_base) const {
+  double travel = 0.0;
+  const SharedAnchor* last = nullptr;
+  const std::vector<SharedAnchor> anchors = exchange_.anchorsOf(origin);
+  for (const SharedAnchor& anchor : anchors) {
+    if (last) travel += (anchor.pose.position() - last->pose.position()).norm();
+    last = &anchor;
+  }
+  return last ? travel + (T_odom_base.position() - last->pose.position()).norm() : travel;
+}
+
+std::optional<TeamLink::AnchorPlace> TeamLink::anchorPlace(RobotId origin, std::uint32_t id) const {
+  AnchorPlace place;
+  const SharedAnchor* last = nullptr;
+  const std::vector<SharedAnchor> anchors = exchange_.anchorsOf(origin);
+  for (const SharedAnchor& anchor : anchors) {
+    if (last) place.travel += (anchor.pose.position() - last->pose.position()).norm();
+    last = &anchor;
+    place.pose = anchor.pose;
+    if (anchor.id == id) return place;
+  }
+  return std::nullopt;
+}
+
+void TeamLink::hearEdges() {
+  for (const SharedEdge& shared : exchange_.edges()) {
+    if (shared.origin == exchange_.id() || shared.edge.state != EdgeState::kConfirmed) continue;
+    double& written = edges_.try_emplace({shared.origin, shared.edge.peer}, -1e9).first->second;
+    if (shared.written <= written + 0.5) continue;  // ages are told to 12 %
+    const std::optional<AnchorPlace> from = anchorPlace(shared.origin, shared.edge.anchor);
+    const std::optional<AnchorPlace> to = anchorPlace(shared.edge.peer, shared.edge.peer_anchor);
+    if (!from || !to) continue;
+    written = shared.written;
+    localization_.addEdge({nameOf(shared.origin), nameOf(shared.edge.peer), shared.written, from->pose, to->pose, from->travel,
+                           to->travel, shared.edge.T_anchor_peer});
+    teammates_[shared.origin].id = shared.origin;
+    if (shared.edge.peer != exchange_.id()) teammates_[shared.edge.peer].id = shared.edge.peer;
+  }
+}
+
+void TeamLink::locate(double now) {
+  for (const PeerState& peer : exchange_.peers(now)) hear(peer, now);
+  hearEdges();
+  std::map<std::string, PeerEstimate> estimates;
+  for (PeerEstimate& estimate : localization_.step(now)) estimates[estimate.peer] = std::move(estimate);
+  for (auto& [id, teammate] : teammates_) {
+    const auto found = estimates.find(nameOf(id));
+    teammate.estimate = found == estimates.end() ? PeerEstimate{} : found->second;
+    teammate.located_at = now;
+    if (teammate.estimate.state == PoseState::kUnknown && !told_poses_.count(id)) continue;
+    PeerPose pose{teammate.estimate.T_odom_peerodom, teammate.estimate.support, edgeStateOf(teammate.estimate.state),
+                  teammate.estimate.direct};
+    if (pose.state == EdgeState::kWithdrawn) {
+      told_poses_.erase(id);
+    } else {
+      told_poses_.insert(id);
+    }
+    exchange_.setPeerPose(id, pose, now);
+  }
+}
+
+void TeamLink::tellMap(const Topology& topology, double now) {
+  if (!share_maps_ || now < told_map_at_ + kMapPeriod) return;
+  told_map_at_ = now;
+  std::vector<OwnContour> contours;
+  for (const Contour& contour : topology.contours()) {
+    contours.push_back({keyOf(contour), contour.polygon, contour.closed, contour.hole, now});
+  }
+  exchange_.publishContours(contours, now);
+}
+
+/// How an origin's outlines can be used, if at all, by how well they are known where this robot is.
+std::optional<bool> TeamLink::hardness(const Teammate& teammate, const Pose2& T_odom_base, bool was_hard) const {
+  const PoseState state = teammate.estimate.state;
+  if (state != PoseState::kConfirmed && state != PoseState::kTentative) return std::nullopt;
+  const PoseEstimate& T = teammate.estimate.T_odom_peerodom;
+  const double sigma = deviation(pointCovariance(T, T.pose.inverse() * T_odom_base.position()));
+  if (sigma > kSoftSigma) return std::nullopt;
+  return state == PoseState::kConfirmed && sigma < (was_hard ? kHardStays : kHardSigma);
+}
+
+std::vector<LayerContour> TeamLink::contoursOf(RobotId origin) const {
+  std::map<std::uint32_t, Pose2> anchors;
+  for (const SharedAnchor& anchor : exchange_.anchorsOf(origin)) anchors[anchor.id] = anchor.pose;
+  std::vector<LayerContour> contours;
+  for (const SharedContour& contour : exchange_.contoursOf(origin)) {
+    const auto anchor = anchors.find(contour.anchor);
+    if (contour.contested || anchor == anchors.end()) continue;
+    contours.push_back({transformed(anchor->second, contour.polygon), contour.closed});
+  }
+  return contours;
+}
+
+void TeamLink::drawMaps(Topology& topology, const Pose2& T_odom_base, double now) {
+  if (!share_maps_) return;
+  for (const auto& [id, teammate] : teammates_) {
+    Drawn& drawn = drawn_[id];
+    const std::optional<bool> hard = hardness(teammate, T_odom_base, drawn.hard);
+    if (!hard) {
+      if (drawn.revision >= 0) topology.removeLayer(nameOf(id));
+      drawn = {};
+      continue;
+    }
+    const Pose2& T = teammate.estimate.T_odom_peerodom.pose;
+    const Pose2 change = drawn.T_odom_peer.inverse() * T;
+    const bool moved = change.position().norm() > kMovedBy || std::abs(change.yaw) > kMovedYaw;
+    const int revision = exchange_.mapRevision(id);
+    if (revision == drawn.revision && *hard == drawn.hard && !moved) continue;
+    if (drawn.revision >= 0 && now < drawn.at + kMapPeriod) continue;
+    drawn = {revision, T, *hard, now};
+    topology.setLayer({nameOf(id), 1, now, T, *hard, contoursOf(id)});
+  }
+}
+
+std::vector<KnownTeammate> TeamLink::bodies(double now) const {
+  std::vector<KnownTeammate> bodies;
+  for (const PeerState& peer : exchange_.peers(now)) {
+    const auto found = teammates_.find(peer.id);
+    const double age = now - peer.odometry.stamp;
+    if (found == teammates_.end() || found->second.estimate.state != PoseState::kConfirmed || !peer.clock_known ||
+        age > kFreshBeacon) {
+      continue;
+    }
+    const Twist2& twist = peer.odometry.twist;
+    const Pose2 pose = integrateTwist(peer.odometry.pose, twist.speed, twist.turn_rate, age);
+    const PoseEstimate& T = found->second.estimate.T_odom_peerodom;
+    bodies.push_back({T.pose * pose, peer.footprint, kBodyMargin + deviation(pointCovariance(T, pose.position()))});
+  }
+  return bodies;
+}
+
+std::vector<Packet> TeamLink::step(double now, const Odometry& odometry, const SampledTrajectory& trajectory, DriveState state) {
+  exchange_.setOdometry(odometry, state);
+  exchange_.setTrajectory(trajectory.empty() ? SampledTrajectory::standing(odometry.pose, now) : trajectory, state);
+  ExchangeOutput output = exchange_.step(now);
+  for (const ExchangeEvent& event : output.events) {
+    if (event.kind != ExchangeEventKind::kPeerRestarted) continue;
+    localization_.forget(nameOf(event.robot));
+    heard_.erase(event.robot);
+  }
+  std::vector<Packet> packets;
+  for (Bytes& bytes : output.packets) packets.push_back({std::move(bytes)});
+  return packets;
+}
+
+}  // namespace parley
