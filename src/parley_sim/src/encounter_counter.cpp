@@ -38,9 +38,10 @@ void EncounterCounter::note(const Snapshot& snapshot, std::size_t first, std::si
   if (!under_way) {
     const Eigen::Vector2d middle =
         0.5 * (snapshot.bodies[first].state.pose.position() + snapshot.bodies[second].state.pose.position());
-    encounters_.push_back({first, second, sight.since, middle});
+    sight.encounter = encounters_.size();
+    encounters_.push_back({first, second, sight.since, now, middle});
   }
-  sight.gone = now + kForgotten;
+  sight.gone = encounters_[sight.encounter].end = now + kForgotten;
 }
 
 void EncounterCounter::observe(const Snapshot& snapshot) {

@@ -2,9 +2,21 @@
 #include "parley_sim/fleet_runner.h"
 
 namespace parley::sim {
+namespace {
+
+constexpr long kStepsPerJudgement = 10;
+
+std::vector<std::string> namesOf(const Scenario& scenario) {
+  std::vector<std::string> names;
+  for (const RobotSpec& robot : scenario.robots) names.push_back(robot.name);
+  return names;
+}
+
+}  // namespace
 
 FleetRunner::FleetRunner(const Scenario& scenario, const World& world, BrainFactory factory)
     : simulation_(scenario, world),
+      localization_(namesOf(scenario)),
       factory_(std::move(factory)),
       brains_(scenario.robots.size()),
       readings_(scenario.robots.size()),
@@ -18,6 +30,17 @@ void FleetRunner::step() {
   for (std::size_t robot = 0; robot < brains_.size(); ++robot) {
     if (readings_[robot].present) think(robot);
   }
+  if (steps_++ % kStepsPerJudgement == 0) judgeLocalization();
+}
+
+void FleetRunner::judgeLocalization() {
+  std::vector<std::optional<BelievedState>> states(brains_.size());
+  for (std::size_t robot = 0; robot < brains_.size(); ++robot) {
+    if (!brains_[robot]) continue;
+    states[robot] = BelievedState{simulation_.truth().bodies[robot].state.pose, simulation_.robot(robot).believed(),
+                                  &outputs_[robot].beliefs};
+  }
+  localization_.observe(simulation_.time(), states, simulation_.encounters());
 }
 
 void FleetRunner::think(std::size_t robot) {

@@ -59,13 +59,48 @@ std::optional<double> percentile(std::vector<float> seconds, double fraction) {
   return 1000.0 * static_cast<double>(seconds[static_cast<std::size_t>(rank)]);
 }
 
-void addRadio(const Simulation& simulation, Result& result) {
+/// Of values of any kind, the one at a rank; nullopt if there are none.
+std::optional<double> ranked(std::vector<double> values, double fraction) {
+  if (values.empty()) return std::nullopt;
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(fraction * static_cast<double>(values.size() - 1) + 0.5)];
+}
+
+void addLocalization(const FleetRunner& runner, Result& result) {
+  const LocalizationJudge& judge = runner.localization();
+  result.encounters = static_cast<int>(runner.simulation().encounters().size());
+  const std::vector<double> seconds = judge.secondsToLocalize();
+  result.localized = static_cast<int>(seconds.size());
+  result.false_pairs = judge.falsePairs();
+  std::vector<double> translations, rotations;
+  for (const PoseError& error : judge.errors()) {
+    translations.push_back(error.translation);
+    rotations.push_back(error.rotation);
+  }
+  result.translation_error_p50 = ranked(translations, 0.5);
+  result.translation_error_max = ranked(translations, 1.0);
+  result.rotation_error_p50 = ranked(rotations, 0.5);
+  result.rotation_error_max = ranked(rotations, 1.0);
+  result.seconds_to_localize_p50 = ranked(seconds, 0.5);
+}
+
+void addRadio(const FleetRunner& runner, Result& result) {
+  const Simulation& simulation = runner.simulation();
   const RadioCounters& radio = simulation.radio();
   std::int64_t total = 0;
   for (const std::int64_t bytes : radio.tx_bytes) total += bytes;
   const double robot_seconds = simulation.time() * static_cast<double>(radio.tx_bytes.size());
   if (robot_seconds > 0.0) result.bytes_per_second_per_robot = static_cast<double>(total) / robot_seconds;
-  result.nothing_sent = total == 0;
+  for (std::size_t robot = 0; robot < radio.tx_bytes.size(); ++robot) {
+    const SentBytes& sent = runner.output(robot).sent;
+    result.map_bytes += sent.map;
+    result.keyframe_bytes += sent.keyframe;
+    result.trajectory_bytes += sent.trajectory;
+    result.beacon_bytes += sent.beacon;
+    result.conflict_bytes += sent.conflict;
+  }
+  result.overhead_bytes =
+      total - result.map_bytes - result.keyframe_bytes - result.trajectory_bytes - result.beacon_bytes - result.conflict_bytes;
   result.delivered = ratio(static_cast<double>(radio.received), static_cast<double>(radio.expected));
 }
 
@@ -113,8 +148,8 @@ Result resultOf(const FleetRunner& runner, const std::string& variant, double wa
   result.mean_length = meanOver(result.robots, [](Robot r) { return std::optional<double>(r.length); });
   result.path_optimality = meanOver(result.robots, [](Robot r) { return ratio(r.straight, r.length); });
   result.mean_regret = meanOver(result.robots, [](Robot r) { return r.shortest ? ratio(r.length, *r.shortest) : std::nullopt; });
-  addRadio(simulation, result);
-  result.encounters = static_cast<int>(simulation.encounters().size());
+  addRadio(runner, result);
+  addLocalization(runner, result);
   for (std::size_t stage = 0; stage < kStageNames.size(); ++stage) {
     const std::vector<float>& seconds = runner.stageTimes()[stage];
     result.timing[stage] = {percentile(seconds, 0.5), percentile(seconds, 0.99)};

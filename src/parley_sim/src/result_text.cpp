@@ -30,15 +30,12 @@ void writeRobot(JsonWriter& json, const RobotResult& robot) {
 void writeRadio(JsonWriter& json, const Result& result) {
   json.beginObject("radio");
   json.number("bytes_per_second_per_robot", result.bytes_per_second_per_robot);
-  for (const char* kind :
-       {"map_bytes", "keyframe_bytes", "trajectory_bytes", "beacon_bytes", "conflict_bytes", "overhead_bytes"}) {
-    // the simulated radio does not look into packets
-    if (result.nothing_sent) {
-      json.integer(kind, 0);
-    } else {
-      json.null(kind);
-    }
-  }
+  json.integer("map_bytes", result.map_bytes);
+  json.integer("keyframe_bytes", result.keyframe_bytes);
+  json.integer("trajectory_bytes", result.trajectory_bytes);
+  json.integer("beacon_bytes", result.beacon_bytes);
+  json.integer("conflict_bytes", result.conflict_bytes);
+  json.integer("overhead_bytes", result.overhead_bytes);
   json.number("delivered", result.delivered);
   json.endObject();
 }
@@ -46,16 +43,18 @@ void writeRadio(JsonWriter& json, const Result& result) {
 void writeRelativeLocalization(JsonWriter& json, const Result& result) {
   json.beginObject("relative_localization");
   json.integer("encounters", result.encounters);
-  json.null("localized");
-  json.null("false");
-  for (const char* error : {"translation_error", "rotation_error"}) {
-    json.beginObject(error);
-    json.null("p50");
-    json.null("max");
-    json.endObject();
-  }
+  json.integer("localized", result.localized);
+  json.integer("false", result.false_pairs);
+  json.beginObject("translation_error");
+  json.number("p50", result.translation_error_p50);
+  json.number("max", result.translation_error_max);
+  json.endObject();
+  json.beginObject("rotation_error");
+  json.number("p50", result.rotation_error_p50);
+  json.number("max", result.rotation_error_max);
+  json.endObject();
   json.beginObject("seconds_to_localize");
-  json.null("p50");
+  json.number("p50", result.seconds_to_localize_p50);
   json.endObject();
   json.endObject();
 }

@@ -52,6 +52,7 @@ class StackBrain : public Brain {
     output.replans = robot.replans;
     output.route_switches = robot.route_switches;
     output.escapes = robot.escapes;
+    if (stack_.team()) report(*stack_.team(), output);
     state_ = std::string(toString(robot.state)) + (robot.reason.empty() ? "" : ": " + robot.reason);
     return output;
   }
@@ -63,6 +64,17 @@ class StackBrain : public Brain {
   }
 
  private:
+  static void report(const TeamLink& team, BrainOutput& output) {
+    for (const auto& [id, teammate] : team.teammates()) {
+      if (teammate.estimate.state != PoseState::kConfirmed) continue;
+      output.beliefs.push_back({teammate.name, teammate.estimate.T_odom_peerodom.pose});
+    }
+    const SectionBytes& sections = team.exchange().counters().sections_sent;
+    const auto count = [](std::size_t bytes) { return static_cast<std::int64_t>(bytes); };
+    output.sent = {count(sections.map), count(sections.keyframe + sections.observation), count(sections.trajectory),
+                   count(sections.beacon), count(sections.conflict)};
+  }
+
   RobotStack stack_;
   Footprint footprint_;
   std::string state_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "parley_geometry/motion.h"
 #include "parley_geometry/status.h"
+#include "parley_sim/localization_judge.h"
 #include "parley_sim/scenario.h"
 #include "parley_sim/simulated_robot.h"
 
@@ -17,6 +19,11 @@ namespace parley::sim {
 /// The stages whose time is reported, in the order of `BrainOutput::stage_seconds`.
 constexpr std::array<const char*, 8> kStageNames{"lidar",      "map_fusion", "topology", "route", "relative_localization",
                                                  "local_plan", "trajectory", "control"};
+
+/// Payload bytes of what a robot has sent, by kind. [byte]
+struct SentBytes {
+  std::int64_t map = 0, keyframe = 0, trajectory = 0, beacon = 0, conflict = 0;
+};
 
 /// What a robot's mind answers to what its sensors say.
 struct BrainOutput {
@@ -27,6 +34,8 @@ struct BrainOutput {
   int replans = 0;  // [-] since the start, as the two below
   int route_switches = 0;
   int escapes = 0;
+  std::vector<PeerBelief> beliefs;  // confirmed relative poses
+  SentBytes sent;                   // since the start
 };
 
 /// The mind of one robot. An interface, so that the runner can be tested with minds that do one simple thing.

@@ -16,6 +16,7 @@ struct Encounter {
   std::size_t first = 0;
   std::size_t second = 0;
   double start = 0.0;                                  // [s] when they came into sight
+  double end = 0.0;                                    // [s] five seconds after they last saw each other
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  // [m] between them when the second was over
 };
 
@@ -31,9 +32,10 @@ class EncounterCounter {
 
  private:
   struct Sight {
-    double since = 0.0;  // [s] start of the sight without a gap
-    double last = -1e9;  // [s] last time in sight
-    double gone = -1e9;  // [s] the encounter under way ends here if they do not see each other again
+    double since = 0.0;         // [s] start of the sight without a gap
+    double last = -1e9;         // [s] last time in sight
+    double gone = -1e9;         // [s] the encounter under way ends here if they do not see each other again
+    std::size_t encounter = 0;  // [-] its number
   };
 
   bool inSight(const Snapshot& snapshot, std::size_t first, std::size_t second) const;

@@ -26,6 +26,7 @@ class FleetRunner {
   /// What a robot's mind answered last.
   const BrainOutput& output(std::size_t robot) const { return outputs_[robot]; }
   DriveState state(std::size_t robot) const;
+  const LocalizationJudge& localization() const { return localization_; }
   /// Null before the robot has joined.
   const Brain* brain(std::size_t robot) const { return brains_[robot].get(); }
   /// Wall time of every run of a stage, all robots together. [s]
@@ -33,8 +34,11 @@ class FleetRunner {
 
  private:
   void think(std::size_t robot);
+  void judgeLocalization();
 
   Simulation simulation_;
+  LocalizationJudge localization_;
+  long steps_ = 0;
   BrainFactory factory_;
   std::vector<std::unique_ptr<Brain>> brains_;  // null before the robot has joined
   std::vector<SensorReadings> readings_;

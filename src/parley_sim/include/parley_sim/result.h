@@ -51,9 +51,12 @@ struct Result {
   std::vector<RobotResult> robots;
   std::vector<IncidentResult> incidents;
   double bytes_per_second_per_robot = 0.0;
-  bool nothing_sent = true;
+  std::int64_t map_bytes = 0, keyframe_bytes = 0, trajectory_bytes = 0, beacon_bytes = 0, conflict_bytes = 0, overhead_bytes = 0;
   std::optional<double> delivered;  // [-]
-  int encounters = 0;
+  int encounters = 0, localized = 0, false_pairs = 0;
+  std::optional<double> translation_error_p50, translation_error_max;  // [m] at confirmation
+  std::optional<double> rotation_error_p50, rotation_error_max;        // [rad]
+  std::optional<double> seconds_to_localize_p50;                       // [s]
   std::array<StageTiming, kStageNames.size()> timing;
   double simulated = 0.0;  // [s]
   double wall = 0.0;       // [s]
