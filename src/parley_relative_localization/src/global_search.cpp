@@ -132,7 +132,8 @@ std::vector<Place> refined(const SurfaceMap& own, const SurfaceMap& peer, const 
                            const Eigen::Vector2d& there, int iterations, std::size_t votes) {
   std::vector<Place> modes;
   for (const Place& place : places) {
-    const ScanMatch match = refineMatch(own.index, peer.submap.sample(kProbes), {place.pose, place.pose * there, {}}, iterations);
+    const ScanMatch match =
+        refineMatch(own.index, peer.submap.sample(kProbes), unobserved(place.pose, place.pose * there), iterations);
     if (!match.converged) continue;
     const Pose2& pose = match.estimate.pose;
     const auto is_same = [&](const Place& other) { return isSameMode(other.pose, pose, there); };
@@ -168,7 +169,7 @@ std::optional<PoseInformation> searchGlobally(const SurfaceMap& own, const Surfa
   keepBest(modes, kModes);
   if (modes.empty()) return std::nullopt;
   const Pose2& best = modes.front().pose;
-  const ScanMatch match = refineMatch(own.index, peer.sample, {best, best * there, {}});
+  const ScanMatch match = refineMatch(own.index, peer.sample, unobserved(best, best * there));
   const FreeSpaceVote vote = voteOnFreeSpace(own.submap, peer.submap, match.estimate.pose);
   const double gap = modes.size() < 2 ? 1e9 : static_cast<double>(modes[0].score - std::max(modes[1].score, 0));
   const bool is_good = match.converged && vote.matches >= options.matches_alone &&

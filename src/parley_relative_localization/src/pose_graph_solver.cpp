@@ -129,6 +129,7 @@ bool covariancesOf(ceres::Problem& problem, const std::vector<const double*>& bl
   options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
   ceres::Covariance covariance(options);
   std::vector<std::pair<const double*, const double*>> pairs;
+  pairs.reserve(blocks.size());
   for (const double* block : blocks) pairs.emplace_back(block, block);
   if (!covariance.Compute(pairs, &problem)) return false;
   for (const double* block : blocks) {

@@ -17,6 +17,13 @@ Eigen::Matrix3d leverOf(const Pose2& pose, const Eigen::Vector2d& center) {
 
 }  // namespace
 
+PoseInformation unobserved(const Pose2& pose, const Eigen::Vector2d& center) {
+  PoseInformation result;
+  result.pose = pose;
+  result.center = center;
+  return result;
+}
+
 Pose2 movedAbout(const Pose2& pose, const Eigen::Vector2d& center, const Eigen::Vector3d& step) {
   const Eigen::Vector2d turned = Pose2{0.0, 0.0, step.z()} * Eigen::Vector2d(pose.position() - center);
   const Eigen::Vector2d p = center + turned + step.head<2>();

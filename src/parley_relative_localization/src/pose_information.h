@@ -15,6 +15,9 @@ struct PoseInformation {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  // [1/m^2, 1/(m rad), 1/rad^2]
 };
 
+/// A pose of which nothing is known: a place to start from.
+PoseInformation unobserved(const Pose2& pose, const Eigen::Vector2d& center);
+
 /// Moves the child frame by (x, y, yaw) about `center`.
 Pose2 movedAbout(const Pose2& pose, const Eigen::Vector2d& center, const Eigen::Vector3d& step);
 

@@ -41,7 +41,7 @@ NormalEquations equationsOf(const SightTerms& sights, const Eigen::Vector2d& cen
 
 /// A place between the robots when they last saw each other.
 Eigen::Vector2d centerOf(const MeetingSide& own, const MeetingSide& peer, const MeetingPose& pose) {
-  const auto here = own.sights.empty() ? Eigen::Vector2d(0.0, 0.0) : own.sights.back().T_odom_scan.position();
+  Eigen::Vector2d here = own.sights.empty() ? Eigen::Vector2d(0.0, 0.0) : own.sights.back().T_odom_scan.position();
   if (peer.motion.empty()) return here;
   return 0.5 * (here + pose.T_odom_peerodom * peer.motion.latest().pose.position());
 }

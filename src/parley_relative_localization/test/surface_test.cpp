@@ -22,7 +22,7 @@ SurfaceMap mapOf(const std::vector<test::WallSegment>& walls, const std::vector<
   return SurfaceMap(test::scansFrom(test::segmentWorld(walls), places, odom, lidar, random));
 }
 
-PoseInformation guess(const Pose2& pose) { return {pose, kOwnOdom.inverse() * Eigen::Vector2d(4.0, 3.0), {}}; }
+PoseInformation guess(const Pose2& pose) { return unobserved(pose, kOwnOdom.inverse() * Eigen::Vector2d(4.0, 3.0)); }
 
 }  // namespace
 
@@ -34,7 +34,7 @@ TEST(ScanMatcher, findsTheTruthWithoutNoise) {
   const SurfaceMap own = mapOf(room, kOwnPlaces, kOwnOdom, exact, 1), peer = mapOf(room, kPeerPlaces, kPeerOdom, exact, 2);
   const PoseInformation start = guess(kTruth);
   const Pose2 off = movedAbout(kTruth, start.center, {0.12, -0.1, 0.06});
-  const ScanMatch match = refineMatch(own.index, peer.sample, {off, start.center, {}});
+  const ScanMatch match = refineMatch(own.index, peer.sample, unobserved(off, start.center));
   ASSERT_TRUE(match.converged);
   const Eigen::Vector3d error = stepBetween(kTruth, match.estimate.pose, start.center);
   EXPECT_LT(error.head<2>().norm(), 0.012);  // ranges are quantised to 5 cm here
