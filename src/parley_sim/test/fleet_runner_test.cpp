@@ -142,7 +142,7 @@ TEST(ResultTest, theFileHasAllKeysAndNullsWhereThereIsNoValue) {
   EXPECT_TRUE(json["robots"][0]["time"].IsNull());
   EXPECT_TRUE(json["robots"][0]["shortest"].IsNull());
   EXPECT_TRUE(json["robots"][0]["mean_speed"].IsNull());
-  EXPECT_TRUE(json["radio"]["map_bytes"].IsNull());
+  EXPECT_TRUE(json["relative_localization"]["translation_error"]["p50"].IsNull());
   EXPECT_TRUE(json["timing_ms"]["lidar"]["p50"].IsNull());
   EXPECT_EQ(json["robots"][2]["time"].as<double>(), 0.5);
   EXPECT_EQ(json["simulated"].as<double>(), 5.0);
