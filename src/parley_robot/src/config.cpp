@@ -10,7 +10,7 @@ namespace parley {
 namespace {
 
 OptionValue typedValue(const YAML::Node& node) {
-  const std::string text = node.Scalar();
+  const std::string& text = node.Scalar();
   if (node.Tag() == "!") return text;  // quoted
   if (text == "true" || text == "false") return text == "true";
   static const std::regex kWhole("[-+]?[0-9]{1,18}");
@@ -52,7 +52,7 @@ OptionFile readOptionFile(const std::string& path) {
       if (entry.second.IsScalar()) {
         file.values[key] = typedValue(entry.second);
       } else {
-        file.problems.push_back(path + ": " + key + ": must be a single value");
+        file.problems.push_back(std::string(path).append(": ").append(key).append(": must be a single value"));
       }
     }
   } catch (const YAML::Exception& error) {
