@@ -24,7 +24,8 @@ Override overrideOf(const std::string& word) {
 Question questionOf(const std::string& time, const std::string& robot) {
   char* end = nullptr;
   Question question{std::strtod(time.c_str(), &end), robot};
-  if (*end != '\0' || !(question.time >= 0.0)) throw InputError("--explain: " + time + ": must be a time in seconds from 0 on");
+  if (time.empty() || *end != '\0' || !(question.time >= 0.0))
+    throw InputError("--explain: " + time + ": must be a time in seconds from 0 on");
   return question;
 }
 

@@ -95,7 +95,7 @@ BrainFactory stackBrains(const std::string& config_directory, const std::string&
   options.variant = static_cast<Variant>(name - names.begin());
   if (!config_directory.empty()) {
     const std::vector<std::string> problems = loadConfig(config_directory, options);
-    if (!problems.empty()) throw InputError(joined(problems));
+    if (!problems.empty()) throw InputError("--config: " + joined(problems));
   }
   return [options](const RobotSpec& spec, double goal_tolerance) -> std::unique_ptr<Brain> {
     const RobotOptions own = optionsFor(options, spec, goal_tolerance);

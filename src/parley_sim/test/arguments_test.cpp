@@ -33,6 +33,13 @@ TEST(ArgumentsTest, takesEverythingInAnyOrder) {
   EXPECT_TRUE(parseArguments({"--help"}).help);
 }
 
+TEST(ArgumentsTest, manyMomentsMayBeExplained) {
+  const Arguments a = parseArguments({"--explain", "3.5", "x", "s.yaml", "--explain", "0", "y"});
+  ASSERT_EQ(a.questions.size(), 2u);
+  EXPECT_EQ(a.questions[0].time, 3.5);
+  EXPECT_EQ(a.questions[0].robot + a.questions[1].robot, "xy");
+}
+
 TEST(ArgumentsTest, aValueMayHoldAnEqualsSign) {
   EXPECT_EQ(parseArguments({"s.yaml", "--set", "a.b=c=d"}).overrides[0], Override("a.b", "c=d"));
 }
@@ -50,6 +57,9 @@ TEST(ArgumentsTest, saysWhatIsWrong) {
             "--variant: best: must be full, no_sharing, no_conflict_resolution or reactive");
   EXPECT_EQ(messageOf({"a.yaml", "--picture", "p.bmp"}), "--picture: p.bmp: must end in .png");
   EXPECT_EQ(messageOf({"a.yaml", "--bag-robot", "x"}), "--bag-robot: needs --bag");
+  EXPECT_EQ(messageOf({"a.yaml", "--explain", "3"}), "--explain: needs TIME and ROBOT");
+  EXPECT_EQ(messageOf({"a.yaml", "--explain", "soon", "x"}), "--explain: soon: must be a time in seconds from 0 on");
+  EXPECT_EQ(messageOf({"a.yaml", "--explain", "", "x"}), "--explain: : must be a time in seconds from 0 on");
 }
 
 }  // namespace

@@ -71,7 +71,8 @@ TEST_F(RunTest, unusableInputIsSaidBeforeTheRun) {
   EXPECT_NE(messageOf({"--bag", directory_.file("r.bag"), "--bag-robot", "z"}).find("--bag-robot: z: there is no such robot"),
             std::string::npos);
   EXPECT_NE(messageOf({"--set", "map=hall.yaml"}).find("s.yaml: map: no such file"), std::string::npos);
-  EXPECT_NE(messageOf({"--config", "/no/such/folder"}), "");
+  EXPECT_EQ(messageOf({"--config", "/no/such/folder"}), "--config: /no/such/folder: no such folder");
+  EXPECT_NE(messageOf({"--explain", "1", "z"}).find("--explain: z: there is no such robot"), std::string::npos);
 }
 
 TEST_F(RunTest, anUnreachableGoalIsARunThatFails) {
