@@ -38,7 +38,7 @@ void ParameterLoader::flatten(const std::string& group, XmlRpc::XmlRpcValue& tre
         flatten(group.empty() ? key : group + "/" + key, value);
         break;
       default:
-        problems_.push_back(sourceOf(group) + ": " + key + ": must be a single value or a dictionary");
+        problems_.push_back(sourceOf(group).append(": ").append(key).append(": must be a single value or a dictionary"));
     }
   }
 }

@@ -14,6 +14,7 @@ constexpr std::size_t kLeastReturns = 3;
 constexpr std::size_t kWallReturns = 12;  // known ones that tell where a wall goes, at most
 constexpr double kLeastWall = 0.12;       // [m] their chord, at least
 constexpr double kWallThickness = 0.07;   // [m] returns so far off a line are on it: noise
+constexpr double kNoise = 0.05;           // [m] by which neighbours on a wall may be further apart than they should
 constexpr double kWallDirection = 0.15;   // [-] and so much more a metre, for what the short line does not tell
 
 using Returns = std::vector<DatedReturn>;
@@ -43,10 +44,20 @@ std::size_t knownUntil(const Returns& returns, std::size_t i, bool forward, doub
   return k;
 }
 
+/// Whether there is no more room between `known`, the last return of a wall, and `fresh` than between its returns: the front
+/// of a robot that comes out of an opening may be in line with the wall beside it.
+bool adjoins(const Returns& returns, std::size_t known, std::size_t known_before, std::size_t fresh) {
+  const double spacing = (returns[known].point - returns[known_before].point).norm();
+  return (returns[fresh].point - returns[known].point).norm() < 2.0 * spacing + kNoise;
+}
+
 bool isRestOfWall(const Returns& returns, std::size_t begin, std::size_t end, double jump) {
   const std::size_t before = knownUntil(returns, begin, false, jump), after = knownUntil(returns, end - 1, true, jump);
-  return (before + 1 < begin && continues(returns, begin, end, returns[before].point, returns[begin - 1].point)) ||
-         (after > end && continues(returns, begin, end, returns[after].point, returns[end].point));
+  const bool goes_on_after = before + 1 < begin && adjoins(returns, begin - 1, begin - 2, begin) &&
+                             continues(returns, begin, end, returns[before].point, returns[begin - 1].point);
+  const bool goes_on_before = after > end && adjoins(returns, end, end + 1, end - 1) &&
+                              continues(returns, begin, end, returns[after].point, returns[end].point);
+  return goes_on_after || goes_on_before;
 }
 
 }  // namespace

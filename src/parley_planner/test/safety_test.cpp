@@ -111,6 +111,9 @@ TEST(FreshPieces, AThingBesideAWallIsOne) {
   for (const DatedReturn& r : wall(0.0, 0.4, 1.4, -5.0, 5.0)) returns.push_back(r);  // half a metre nearer
   EXPECT_EQ(freshPieces(returns, 1.2, 0.2).size(), 1U);
   returns = wall(-1.0, 0.0, 2.0, 5.0, 5.0);
+  for (const DatedReturn& r : wall(0.25, 0.65, 2.0, -5.0, 5.0)) returns.push_back(r);  // in line, in an opening
+  EXPECT_EQ(freshPieces(returns, 1.2, 0.2).size(), 1U);
+  returns = wall(-1.0, 0.0, 2.0, 5.0, 5.0);
   for (double y = 2.0; y > 1.5; y -= 0.03) {  // touching it, at a right angle
     returns.push_back({{0.02, y}, y, true});
   }
