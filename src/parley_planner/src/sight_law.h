@@ -21,7 +21,7 @@ struct SightLawOptions {
   double look_ahead_time = 0.2;     // [s] until the next plan knows more
   double intruder_length = 1.2;     // [m] longer things in one piece are no robots
   double memory_time = 3.0;         // [s] for which a robot that got out of sight is looked for near walls too
-  double proof_time = 0.35;         // [s] what stays in its place for so long after first sight is no robot on its way
+  double proof_time = 0.25;         // [s] what stays in its place for so long after first sight is no robot on its way
 };
 
 /// How fast one may drive so that a robot that comes out of hidden space and obeys the same law can still be avoided by both
