@@ -166,9 +166,7 @@ void TeamLink::tellMap(const std::vector<Contour>& contours, double now) {
   if (!mapIsDue(now)) return;
   told_map_at_ = now;
   std::vector<OwnContour> own;
-  for (const Contour& contour : contours) {
-    own.push_back({keyOf(contour), contour.polygon, contour.closed, contour.hole, now});
-  }
+  for (const Contour& c : contours) own.push_back({keyOf(c), c.polygon, c.closed, c.hole, now});
   exchange_.publishContours(own, now);
 }
 
