@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 
 #include "node_fixture.h"
@@ -24,8 +25,8 @@ using test::refusal;
 class TeamNodeTest : public test::NodeFixture {
  protected:
   TeamNodeTest() {
-    char name[] = "/tmp/parley_team_XXXXXX";
-    folder_ = ::mkdtemp(name);
+    folder_ = (std::filesystem::temp_directory_path() / "parley_team_XXXXXX").string();
+    EXPECT_NE(::mkdtemp(folder_.data()), nullptr);
     std::ofstream(folder_ + "/key") << std::string(64, '7');
     std::ofstream(folder_ + "/other_key") << std::string(64, '8');
     setTeam(pnh("team"), "ann");
@@ -38,8 +39,7 @@ class TeamNodeTest : public test::NodeFixture {
   }
   ~TeamNodeTest() override {
     ros::param::del(bob_nh_.getNamespace());
-    for (const char* file : {"/key", "/other_key", "/boots_ann", "/boots_bob"}) ::unlink((folder_ + file).c_str());
-    ::rmdir(folder_.c_str());
+    std::filesystem::remove_all(folder_);
   }
 
   void setTeam(const ros::NodeHandle& own, const std::string& name) const {
@@ -118,11 +118,12 @@ TEST_F(TeamNodeTest, SurvivesHostilePackets) {
   connect();
   ros::Publisher air = nh_.advertise<parley_msgs::Packet>("radio/received", 100);
   ASSERT_TRUE(passUntil([this] { return ann_received_.count() > 0; }));
+  const std::vector<std::uint8_t> genuine = ann_received_.last()->data;
   for (std::size_t size = 0; size < 1200; size += 17) {
     parley_msgs::Packet packet;
     packet.data.assign(size, static_cast<std::uint8_t>(size));
     air.publish(packet);
-    packet.data = ann_received_.last()->data;
+    packet.data = genuine;
     packet.data[size % packet.data.size()] ^= 1U;
     air.publish(packet);
   }
