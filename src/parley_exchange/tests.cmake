@@ -3,7 +3,7 @@ get_filename_component(package ${CMAKE_CURRENT_SOURCE_DIR} REALPATH)  # a worksp
 add_library(${PROJECT_NAME}_testing STATIC EXCLUDE_FROM_ALL test/random_content.cpp test/team.cpp)
 target_link_libraries(${PROJECT_NAME}_testing ${PROJECT_NAME})
 
-foreach(name budget clock_offset codec convergence exchange golden hostile options seal sharing store transport)
+foreach(name budget clock_offset codec convergence exchange golden hostile options seal sharing store team_udp transport)
   catkin_add_gtest(${PROJECT_NAME}_${name}_test test/${name}_test.cpp)
   target_link_libraries(${PROJECT_NAME}_${name}_test ${PROJECT_NAME}_testing)
   target_compile_definitions(${PROJECT_NAME}_${name}_test PRIVATE PACKAGE_DIRECTORY="${package}")

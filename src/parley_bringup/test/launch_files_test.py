@@ -10,7 +10,7 @@ import unittest
 import yaml
 
 LAUNCH = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'launch')
-ARGUMENTS = {'robot': ['model:=courier'], 'replay': ['model:=courier', 'bag:=/none.bag', 'rviz:=true'], 'simulation': [],
+ARGUMENTS = {'robot': ['model:=courier', 'name:=ann', 'key_file:=/none.key'], 'replay': ['model:=courier', 'bag:=/none.bag', 'rviz:=true'], 'simulation': [],
              'rviz': []}
 NODES = {'robot': {'/robot'}, 'replay': {'/player', '/robot', '/rviz'}, 'simulation': {'/simulator', '/robots'},
          'rviz': {'/rviz'}}
@@ -46,6 +46,21 @@ class LaunchFiles(unittest.TestCase):
                 self.assertGreater(parameters[f'/{stage}/robot/footprint/length'], 0.0)
                 self.assertGreater(parameters[f'/{stage}/wiring/plan_rate'], 0.0)
             self.assertGreater(parameters['/planner/goal/tolerance'], 0.0)
+            self.assertFalse([key for key in parameters if key.startswith('/team')], 'a robot without a name is alone')
+
+    def test_a_robot_with_a_name_is_in_a_team(self):
+        for name, transport in (('robot', 'udp'), ('replay', 'topic')):
+            dump = roslaunch('--dump-params', os.path.join(LAUNCH, name + '.launch'), 'model:=courier', 'bag:=/none.bag', 'name:=ann',
+                             'key_file:=/k', 'frame_prefix:=r/')
+            parameters = yaml.safe_load(dump)
+            self.assertEqual((parameters['/team/name'], parameters['/team/key_file']), ('ann', '/k'))
+            self.assertEqual(parameters['/team/transport'], transport)
+            self.assertGreater(parameters['/team/exchange/rate'], 0.0)
+            self.assertGreater(parameters['/team/relative_localization/confirm_travel'], 0.0)
+            self.assertGreater(parameters['/team/robot/limits/speed'], 0.0)
+            arguments = roslaunch('--args', 'robot', os.path.join(LAUNCH, name + '.launch'), 'model:=courier', 'bag:=/none.bag',
+                                  'name:=ann')
+            self.assertIn(' team', arguments)
 
     def test_a_robot_without_model_is_refused(self):
         with self.assertRaises(AssertionError):

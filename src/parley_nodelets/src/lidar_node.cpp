@@ -7,8 +7,14 @@
 #include "parley_nodelets/report.h"
 #include "parley_nodelets/sensor_conversions.h"
 #include "parley_nodelets/stage_conversions.h"
+#include "parley_nodelets/team_conversions.h"
 
 namespace parley {
+namespace {
+
+constexpr double kOldBody = 0.5;  // [s] a teammate has gone elsewhere by then
+
+}  // namespace
 
 LidarNode::LidarNode(ros::NodeHandle nh, const ros::NodeHandle& pnh, const std::string& name)
     : config_(loadStageConfig<LidarOptions>(pnh)),
@@ -29,6 +35,8 @@ LidarNode::LidarNode(ros::NodeHandle nh, const ros::NodeHandle& pnh, const std::
         cloud_.put(m);
         wake();
       });
+  teammates_subscriber_ = nh.subscribe<parley_msgs::Teammates>(
+      "teammates", 1, [this](const parley_msgs::TeammatesConstPtr& m) { teammates_.put(m); });
   inputs_.expect<nav_msgs::Odometry>(odometry_.subscriber());
   inputs_.expectEither<sensor_msgs::LaserScan, sensor_msgs::PointCloud2>(scan_subscriber_, cloud_subscriber_);
   diagnostics_.setHardwareID(config_.node.frames.base);
@@ -41,16 +49,28 @@ LidarNode::~LidarNode() { worker_.stop(); }
 
 void LidarNode::process() {
   const OdometrySnapshot odometry = odometry_.read();
-  if (continuity_.broken(ros::Time::now().toSec(), odometry.counters)) stage_->reset();
-  if (const auto message = scan_.take()) publish(stage_->process(fromMessage(*message), odometry.buffer, {}));
+  const double now = ros::Time::now().toSec();
+  if (continuity_.broken(now, odometry.counters)) stage_->reset();
+  const std::vector<KnownTeammate> teammates = bodies(now);
+  if (const auto message = scan_.take()) publish(stage_->process(fromMessage(*message), odometry.buffer, teammates));
   if (const auto message = cloud_.take()) {
     if (const std::optional<LidarCloud> cloud = fromMessage(*message)) {
-      publish(stage_->process(*cloud, odometry.buffer, {}));
+      publish(stage_->process(*cloud, odometry.buffer, teammates));
     } else {
       ++malformed_;
       last_status_ = {LidarCode::kMalformed, "the cloud has no x, y, z, or is shorter than it says"};
     }
   }
+}
+
+/// Teammates whose returns are to be kept off the map; none where the last message is old.
+std::vector<KnownTeammate> LidarNode::bodies(double now) {
+  if (const auto message = teammates_.take(); message && message->header.frame_id == config_.node.frames.odom) {
+    bodies_ = fromMessage(*message).value_or(std::vector<KnownTeammate>{});
+    bodies_stamp_ = message->header.stamp.toSec();
+  }
+  const bool current = continuity_.isCurrent(bodies_stamp_) && now - bodies_stamp_ < kOldBody;
+  return current ? bodies_ : std::vector<KnownTeammate>{};
 }
 
 void LidarNode::publish(const LidarResult& result) {

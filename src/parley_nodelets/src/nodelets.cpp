@@ -7,6 +7,7 @@
 #include "parley_nodelets/control_node.h"
 #include "parley_nodelets/lidar_node.h"
 #include "parley_nodelets/planner_node.h"
+#include "parley_nodelets/team_node.h"
 #include "parley_nodelets/topology_node.h"
 
 namespace parley_nodelets {
@@ -28,6 +29,7 @@ class StageNodelet : public nodelet::Nodelet {
 };
 
 class Lidar : public StageNodelet<parley::LidarNode> {};
+class Team : public StageNodelet<parley::TeamNode> {};
 class Topology : public StageNodelet<parley::TopologyNode> {};
 class Planner : public StageNodelet<parley::PlannerNode> {};
 class Control : public StageNodelet<parley::ControlNode> {};
@@ -35,6 +37,7 @@ class Control : public StageNodelet<parley::ControlNode> {};
 }  // namespace parley_nodelets
 
 PLUGINLIB_EXPORT_CLASS(parley_nodelets::Lidar, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(parley_nodelets::Team, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(parley_nodelets::Topology, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(parley_nodelets::Planner, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(parley_nodelets::Control, nodelet::Nodelet)

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "parley_nodelets/topology_node.h"
 
+#include <parley_msgs/Contours.h>
 #include <parley_msgs/Graph.h>
 #include <parley_msgs/Route.h>
 
 #include "parley_nodelets/map_conversions.h"
 #include "parley_nodelets/report.h"
 #include "parley_nodelets/stage_conversions.h"
+#include "parley_nodelets/team_conversions.h"
 #include "parley_nodelets/topology_markers.h"
 
 namespace parley {
@@ -24,6 +26,7 @@ TopologyNode::TopologyNode(ros::NodeHandle nh, const ros::NodeHandle& pnh, const
       topology_(std::make_unique<Topology>(config_.stage, config_.node.footprint)),
       local_map_(nh.advertise<nav_msgs::OccupancyGrid>("local_map", 1, true)),
       route_publisher_(nh.advertise<parley_msgs::Route>("route", 1, true)),
+      contours_(nh.advertise<parley_msgs::Contours>("contours", 1, true)),
       graph_(nh.advertise<parley_msgs::Graph>("graph", 1, true)),
       markers_(nh.advertise<visualization_msgs::MarkerArray>("topology_markers", 1, true)),
       odometry_(nh, config_.node) {
@@ -33,6 +36,8 @@ TopologyNode::TopologyNode(ros::NodeHandle nh, const ros::NodeHandle& pnh, const
         worker_.post([this] { integrate(); });
       });
   goal_subscriber_ = nh.subscribe<parley_msgs::Goal>("goal", 1, [this](const parley_msgs::GoalConstPtr& m) { new_goal_.put(m); });
+  peer_maps_subscriber_ = nh.subscribe<parley_msgs::PeerMaps>(
+      "peer_maps", 1, [this](const parley_msgs::PeerMapsConstPtr& m) { new_peer_maps_.put(m); });
   inputs_.expect<nav_msgs::Odometry>(odometry_.subscriber());
   inputs_.expect<parley_msgs::ObstacleScan>(obstacles_subscriber_);
   diagnostics_.setHardwareID(config_.node.frames.base);
@@ -47,6 +52,7 @@ TopologyNode::~TopologyNode() { worker_.stop(); }
 void TopologyNode::forgetIfBroken(double now, const OdometrySnapshot& odometry) {
   if (!continuity_.broken(now, odometry.counters)) return;
   topology_->reset();
+  layers_.clear();
   newest_scan_.reset();
   route_ = {};
 }
@@ -72,6 +78,7 @@ void TopologyNode::update() {
   const OdometrySnapshot odometry = odometry_.read();
   forgetIfBroken(now, odometry);
   takeGoal();
+  takePeerMaps();
   if (odometry.buffer.empty() || !newest_scan_) return;
   last_result_ = topology_->update();
   publishRoute(odometry.buffer.latest().pose);
@@ -85,6 +92,33 @@ void TopologyNode::takeGoal() {
   const bool usable = message->active && position.allFinite() && message->header.frame_id == config_.node.frames.odom;
   goal_ = usable ? std::optional<Eigen::Vector2d>(position) : std::nullopt;
   route_ = {};
+}
+
+/// Draws what is new and takes away what is no longer told.
+void TopologyNode::takePeerMaps() {
+  const auto message = new_peer_maps_.take();
+  if (!message) return;
+  if (message->header.frame_id != config_.node.frames.odom || !continuity_.isCurrent(message->header.stamp.toSec())) {
+    ++rejected_;
+    return;
+  }
+  std::map<std::string, ros::Time> told;
+  for (const parley_msgs::MapLayer& layer : message->layers) {
+    const auto drawn = layers_.find(layer.origin);
+    if (drawn == layers_.end() || drawn->second != layer.stamp) {
+      const std::optional<LayerUpdate> update = fromMessage(layer);
+      if (!update) {
+        ++rejected_;
+        continue;
+      }
+      topology_->setLayer(*update);
+    }
+    told[layer.origin] = layer.stamp;
+  }
+  for (const auto& [origin, version] : layers_) {
+    if (told.count(origin) == 0) topology_->removeLayer(origin);
+  }
+  layers_ = std::move(told);
 }
 
 void TopologyNode::publishLocalMap(const Pose2& T_odom_base) {
@@ -101,6 +135,9 @@ void TopologyNode::publishRoute(const Pose2& T_odom_base) {
 
 void TopologyNode::publishPictures() {
   const std::string& odom = config_.node.frames.odom;
+  if (contours_.getNumSubscribers() > 0) {
+    contours_.publish(boost::make_shared<parley_msgs::Contours>(toMessage(topology_->contours(), *newest_scan_, odom)));
+  }
   if (graph_.getNumSubscribers() > 0) {
     graph_.publish(boost::make_shared<parley_msgs::Graph>(toMessage(topology_->graph(), *newest_scan_, odom)));
   }
@@ -118,7 +155,7 @@ void TopologyNode::report(Report& report) const {
   report.add("edges", last_result_.edges);
   report.add("tiles", last_result_.tiles);
   report.add("layers", last_result_.layers);
-  report.add("scans without pose or malformed", rejected_);
+  report.add("messages without pose or malformed", rejected_);
   report.add("refused by the stage", last_result_.refused);
   report.add("route length", route_.length);
   report.add("route switches", route_.switches);

@@ -57,7 +57,7 @@ class Listener {
 class NodeFixture : public testing::Test {
  protected:
   NodeFixture() : spinner_(2) {
-    for (const char* stage : {"lidar", "topology", "planner", "control"}) setParameters(stage);
+    for (const char* stage : {"lidar", "topology", "planner", "control"}) setParameters(pnh(stage));
     odometry_ = nh_.advertise<nav_msgs::Odometry>("odom", 100);
     scan_ = nh_.advertise<sensor_msgs::LaserScan>("scan", 10);
     setTime(10.0);
@@ -67,8 +67,7 @@ class NodeFixture : public testing::Test {
 
   ros::NodeHandle pnh(const std::string& stage) const { return ros::NodeHandle(nh_, stage); }
 
-  void setParameters(const std::string& stage) {
-    const ros::NodeHandle own = pnh(stage);
+  static void setParameters(const ros::NodeHandle& own) {
     own.setParam("frames/odom", "odom");
     own.setParam("frames/base", "base_link");
     own.setParam("robot/footprint/length", 0.8);

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <nav_msgs/OccupancyGrid.h>
+#include <parley_msgs/Contours.h>
 #include <parley_msgs/Goal.h>
 #include <parley_msgs/Graph.h>
 #include <parley_msgs/ObstacleScan.h>
+#include <parley_msgs/PeerMaps.h>
 #include <parley_msgs/Route.h>
+#include <parley_msgs/Teammates.h>
 #include <parley_msgs/TrackedObjects.h>
 #include <visualization_msgs/MarkerArray.h>
 
@@ -32,6 +35,31 @@ TEST_F(LidarNodeTest, TurnsScansIntoObstacles) {
   EXPECT_NEAR(last->ranges[360], 4.0, 0.05) << "straight ahead";
   EXPECT_LE(last->header.stamp, ros::Time::now());
   EXPECT_EQ(tracks_.last()->header.frame_id, "odom");
+}
+
+TEST_F(LidarNodeTest, KeepsTeammatesOffTheMapWhileTheyAreFresh) {
+  const LidarNode node(nh_, pnh("lidar"), "lidar");
+  ros::Publisher teammates = nh_.advertise<parley_msgs::Teammates>("teammates", 1);
+  const auto isTransient = [this] { return obstacles_.count() > 0 && obstacles_.last()->transient[360] != 0; };
+  parley_msgs::Teammates message;
+  message.header.frame_id = "odom";
+  message.teammates.resize(1);
+  message.teammates[0].pose.position.x = 4.0;  // where the scan sees the wall straight ahead
+  message.teammates[0].pose.orientation.w = 1.0;
+  message.teammates[0].length = 0.8;
+  message.teammates[0].width = 0.4;
+  EXPECT_TRUE(passUntil([&] {
+    message.header.stamp = ros::Time(time_);
+    teammates.publish(message);
+    return isTransient();
+  }));
+  EXPECT_TRUE(passUntil([&] { return !isTransient(); })) << "the message is old by now";
+  message.teammates[0].width = -1.0;
+  message.header.stamp = ros::Time(time_);
+  teammates.publish(message);
+  obstacles_.clear();
+  EXPECT_TRUE(passUntil([&] { return obstacles_.count() > 2; }));
+  EXPECT_FALSE(isTransient());
 }
 
 TEST_F(LidarNodeTest, SurvivesHostileInput) {
@@ -120,6 +148,55 @@ TEST_F(TopologyNodeTest, MapsAndFindsARoute) {
   EXPECT_EQ(map_.last()->header.frame_id, "odom");
   EXPECT_NEAR(map_.last()->info.width * map_.last()->info.resolution, 10.0, 0.2);
   EXPECT_EQ(markers_.last()->markers.size(), 4U);
+}
+
+/// A pillar behind the wall, as another robot tells of it.
+parley_msgs::PeerMaps pillarOf(const std::string& origin, double time) {
+  parley_msgs::PeerMaps maps;
+  maps.header.frame_id = "odom";
+  maps.header.stamp = ros::Time(time);
+  parley_msgs::MapLayer& layer = maps.layers.emplace_back();
+  layer.origin = origin;
+  layer.stamp = maps.header.stamp;
+  layer.T_odom_peer.position.x = 6.0;
+  layer.T_odom_peer.orientation.w = 1.0;
+  layer.obstacle = 1;
+  parley_msgs::Contour& contour = layer.contours.emplace_back();
+  contour.closed = 1;
+  for (const auto& [x, y] : std::vector<std::pair<double, double>>{{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}) {
+    geometry_msgs::Point& point = contour.points.emplace_back();
+    point.x = x;
+    point.y = y;
+  }
+  return maps;
+}
+
+TEST_F(TopologyNodeTest, DrawsPeersMapsAndTakesThemAway) {
+  const TopologyNode node(nh_, pnh("topology"), "topology");
+  ros::Publisher peer_maps = nh_.advertise<parley_msgs::PeerMaps>("peer_maps", 1, true);
+  Listener<parley_msgs::Contours> contours(nh_, "contours");
+  const auto isDrawn = [this] {
+    if (graph_.count() == 0) return false;
+    const auto& vertices = graph_.last()->vertices;
+    return std::any_of(vertices.begin(), vertices.end(), [](const auto& vertex) { return vertex.origin == "bob"; });
+  };
+  ASSERT_TRUE(passUntil([&] { return graph_.count() > 0; }));
+  ASSERT_TRUE(passUntil([&] { return contours.count() > 0 && !contours.last()->contours.empty(); })) << "the room's walls";
+  EXPECT_FALSE(isDrawn());
+  peer_maps.publish(pillarOf("bob", time_));
+  EXPECT_TRUE(passUntil(isDrawn));
+  parley_msgs::PeerMaps none = pillarOf("bob", time_);
+  none.layers.clear();
+  peer_maps.publish(none);
+  EXPECT_TRUE(passUntil([&] { return !isDrawn(); }));
+  parley_msgs::PeerMaps bad = pillarOf("bob", time_);
+  bad.layers[0].contours[0].points[1].x = std::nan("");
+  peer_maps.publish(bad);
+  bad = pillarOf("", time_);
+  peer_maps.publish(bad);
+  graph_.clear();
+  EXPECT_TRUE(passUntil([&] { return graph_.count() > 3; }));
+  EXPECT_FALSE(isDrawn());
 }
 
 TEST_F(TopologyNodeTest, GoalOfAnotherFrameOrNotFiniteIsNoGoal) {

@@ -142,14 +142,19 @@ void RobotStack::updateTopology(double now, StageTimes& times) {
     route_ = straightRoute();
     return;
   }
-  const double drawing = timed([&] {
-    if (team_) team_->drawMaps(topology_, odometry_.latest().pose, now);
-  });
+  const double drawing = timed([&] { drawMaps(now); });
   times.map_fusion = std::max(0.0, times.map_fusion) + drawing;
   times.topology = timed([&] { topology_.update(); });
-  if (team_) team_->tellMap(topology_, now);
+  if (team_ && team_->mapIsDue(now)) team_->tellMap(topology_.contours(), now);
   if (!goal_.goal()) return;
   times.route = timed([&] { route_ = topology_.route(odometry_.latest().pose, *goal_.goal()); });
+}
+
+void RobotStack::drawMaps(double now) {
+  if (!team_) return;
+  const MapChanges changes = team_->drawMaps(odometry_.latest().pose, now);
+  for (const std::string& origin : changes.removed) topology_.removeLayer(origin);
+  for (const LayerUpdate& layer : changes.drawn) topology_.setLayer(layer);
 }
 
 void RobotStack::planMotion(double now, StageTimes& times) {

@@ -160,14 +160,14 @@ void TeamLink::locate(double now) {
   }
 }
 
-void TeamLink::tellMap(const Topology& topology, double now) {
-  if (!share_maps_ || now < told_map_at_ + kMapPeriod) return;
+bool TeamLink::mapIsDue(double now) const { return share_maps_ && now >= told_map_at_ + kMapPeriod; }
+
+void TeamLink::tellMap(const std::vector<Contour>& contours, double now) {
+  if (!mapIsDue(now)) return;
   told_map_at_ = now;
-  std::vector<OwnContour> contours;
-  for (const Contour& contour : topology.contours()) {
-    contours.push_back({keyOf(contour), contour.polygon, contour.closed, contour.hole, now});
-  }
-  exchange_.publishContours(contours, now);
+  std::vector<OwnContour> own;
+  for (const Contour& c : contours) own.push_back({keyOf(c), c.polygon, c.closed, c.hole, now});
+  exchange_.publishContours(own, now);
 }
 
 /// How an origin's outlines can be used, if at all, by how well they are known where this robot is.
@@ -192,13 +192,14 @@ std::vector<LayerContour> TeamLink::contoursOf(RobotId origin) const {
   return contours;
 }
 
-void TeamLink::drawMaps(Topology& topology, const Pose2& T_odom_base, double now) {
-  if (!share_maps_) return;
+MapChanges TeamLink::drawMaps(const Pose2& T_odom_base, double now) {
+  MapChanges changes;
+  if (!share_maps_) return changes;
   for (const auto& [id, teammate] : teammates_) {
     Drawn& drawn = drawn_[id];
     const std::optional<bool> hard = hardness(teammate, T_odom_base, drawn.hard);
     if (!hard) {
-      if (drawn.revision >= 0) topology.removeLayer(nameOf(id));
+      if (drawn.revision >= 0) changes.removed.push_back(nameOf(id));
       drawn = {};
       continue;
     }
@@ -209,8 +210,9 @@ void TeamLink::drawMaps(Topology& topology, const Pose2& T_odom_base, double now
     if (revision == drawn.revision && *hard == drawn.hard && !moved) continue;
     if (drawn.revision >= 0 && now < drawn.at + kMapPeriod) continue;
     drawn = {revision, T, *hard, now};
-    topology.setLayer({nameOf(id), 1, now, T, *hard, contoursOf(id)});
+    changes.drawn.push_back({nameOf(id), 1, now, T, *hard, contoursOf(id)});
   }
+  return changes;
 }
 
 std::vector<KnownTeammate> TeamLink::bodies(double now) const {

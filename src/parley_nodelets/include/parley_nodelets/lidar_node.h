@@ -2,10 +2,12 @@
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
+#include <parley_msgs/Teammates.h>
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/PointCloud2.h>
 
 #include <string>
+#include <vector>
 
 #include "parley_lidar/lidar_stage.h"
 #include "parley_nodelets/input_check.h"
@@ -16,7 +18,7 @@
 
 namespace parley {
 
-/// Lidar stage in ROS: `scan` or `points`, and `odom`, become `obstacles` and `tracks`.
+/// Lidar stage in ROS: `scan` or `points`, `odom` and `teammates` become `obstacles` and `tracks`.
 class LidarNode {
  public:
   /// Throws std::invalid_argument with all problems of the parameters.
@@ -25,6 +27,7 @@ class LidarNode {
 
  private:
   void process();
+  std::vector<KnownTeammate> bodies(double now);
   void publish(const LidarResult& result);
   void report(diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
@@ -40,14 +43,18 @@ class LidarNode {
   int accepted_ = 0;         // [-]
   int rejected_ = 0;         // [-]
   int malformed_ = 0;        // [-]
+  std::vector<KnownTeammate> bodies_;
+  double bodies_stamp_ = -1e9;  // [s]
 
   ros::Publisher obstacles_;
   ros::Publisher tracks_;
   Latest<sensor_msgs::LaserScanConstPtr> scan_;
   Latest<sensor_msgs::PointCloud2ConstPtr> cloud_;
+  Latest<parley_msgs::TeammatesConstPtr> teammates_;
   OdometryInput odometry_;
   ros::Subscriber scan_subscriber_;
   ros::Subscriber cloud_subscriber_;
+  ros::Subscriber teammates_subscriber_;
 };
 
 }  // namespace parley

@@ -32,6 +32,9 @@ class ParameterLoader {
     load(group, options);
   }
 
+  /// Problems that the caller found.
+  void note(const std::vector<std::string>& problems);
+
   /// Throws std::invalid_argument if there was any problem; groups that nobody has asked for are problems.
   void finish();
 
@@ -40,7 +43,6 @@ class ParameterLoader {
   const OptionValues& take(const std::string& group);
   void require(const std::string& group, const std::string& key);
   std::string sourceOf(const std::string& group) const;
-  void note(const std::vector<std::string>& problems);
 
   std::string namespace_;
   std::map<std::string, OptionValues> groups_;

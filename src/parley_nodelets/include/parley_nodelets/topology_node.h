@@ -4,7 +4,9 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <parley_msgs/Goal.h>
 #include <parley_msgs/ObstacleScan.h>
+#include <parley_msgs/PeerMaps.h>
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -17,7 +19,8 @@
 
 namespace parley {
 
-/// Topology stage in ROS: `obstacles`, `odom` and `goal` become `local_map`, `route`, `graph` and `topology_markers`.
+/// Topology stage in ROS: `obstacles`, `odom`, `goal` and `peer_maps` become `local_map`, `route`, `contours`, `graph` and
+/// `topology_markers`.
 class TopologyNode {
  public:
   /// Throws std::invalid_argument with all problems of the parameters.
@@ -28,6 +31,7 @@ class TopologyNode {
   void integrate();
   void update();
   void takeGoal();
+  void takePeerMaps();
   void publishLocalMap(const Pose2& T_odom_base);
   void publishRoute(const Pose2& T_odom_base);
   void publishPictures();
@@ -45,17 +49,21 @@ class TopologyNode {
   std::optional<double> newest_scan_;    // [s] stamp
   TopologyResult last_result_;
   Route route_;
-  int rejected_ = 0;  // [-] scans
+  int rejected_ = 0;                         // [-] scans and peers' maps
+  std::map<std::string, ros::Time> layers_;  // peers' maps that are drawn: origin and version
 
   ros::Publisher local_map_;
   ros::Publisher route_publisher_;
+  ros::Publisher contours_;
   ros::Publisher graph_;
   ros::Publisher markers_;
   Latest<parley_msgs::ObstacleScanConstPtr> obstacles_;
   Latest<parley_msgs::GoalConstPtr> new_goal_;
+  Latest<parley_msgs::PeerMapsConstPtr> new_peer_maps_;
   OdometryInput odometry_;
   ros::Subscriber obstacles_subscriber_;
   ros::Subscriber goal_subscriber_;
+  ros::Subscriber peer_maps_subscriber_;
 };
 
 }  // namespace parley

@@ -73,6 +73,7 @@ class RobotStack {
   void sense(StageTimes& times);
   void meetTeam(double now, StageTimes& times);
   void updateTopology(double now, StageTimes& times);
+  void drawMaps(double now);
   void planMotion(double now, StageTimes& times);
   ControlResult driveWheels(double now, StageTimes& times);
   std::vector<Packet> talk(double now, DriveState state);

@@ -23,6 +23,12 @@ struct Teammate {
   double located_at = 0.0;  // [s] time of the estimate
 };
 
+/// How others' outlines over the own map have changed.
+struct MapChanges {
+  std::vector<LayerUpdate> drawn;
+  std::vector<std::string> removed;  // origins
+};
+
 /// What the team knows, and what it is told: couples the radio with relative localization, and both with the map. Times are
 /// of this robot's clock.
 class TeamLink {
@@ -37,10 +43,13 @@ class TeamLink {
   /// Weighs all that came; to be called once for each scan.
   void locate(double now);
 
+  /// Whether it is time to tell the map again.
+  bool mapIsDue(double now) const;
   /// Tells what own sensing knows of obstacles.
-  void tellMap(const Topology& topology, double now);
-  /// Lays what others know over the map, where their frames are known well enough, and takes away what is no longer known.
-  void drawMaps(Topology& topology, const Pose2& T_odom_base, double now);
+  void tellMap(const std::vector<Contour>& contours, double now);
+  /// What others know, to be laid over the map where their frames are known well enough, and what is no longer known, to be
+  /// taken away. Each change is said once.
+  MapChanges drawMaps(const Pose2& T_odom_base, double now);
   /// Bodies whose place is known well enough to keep their returns off the map.
   std::vector<KnownTeammate> bodies(double now) const;
 

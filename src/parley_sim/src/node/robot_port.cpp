@@ -13,6 +13,8 @@ namespace {
 
 constexpr double kCommandTimeout = 0.5;  // [s] as the drives of real robots have it
 constexpr std::uint32_t kOdometryQueue = 50;
+constexpr std::uint32_t kRadioQueue = 200;  // [-] packets
+constexpr std::size_t kMostSent = 100;      // [-] packets of a robot in one step; what is beyond is lost
 
 }  // namespace
 
@@ -23,11 +25,14 @@ RobotPort::RobotPort(const ros::NodeHandle& nh, const RobotSpec& spec) : name_(s
   odometry_ = own.advertise<nav_msgs::Odometry>("odom", kOdometryQueue);
   truth_ = own.advertise<nav_msgs::Odometry>("base_pose_ground_truth", 1);
   goal_ = own.advertise<geometry_msgs::PoseStamped>("move_base_simple/goal", 1, true);
+  received_ = own.advertise<parley_msgs::Packet>("radio/received", kRadioQueue);
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   command_subscriber_ = own.subscribe<geometry_msgs::Twist>(
       "cmd_vel", 1, [this](const geometry_msgs::TwistConstPtr& m) { onCommand(*m); }, nullptr, hints);
   state_subscriber_ = own.subscribe<parley_msgs::RobotState>(
       "robot_state", 1, [this](const parley_msgs::RobotStateConstPtr& m) { onState(*m); }, nullptr, hints);
+  sent_subscriber_ = own.subscribe<parley_msgs::Packet>(
+      "radio/sent", kRadioQueue, [this](const parley_msgs::PacketConstPtr& m) { onSent(*m); }, nullptr, hints);
 }
 
 bool RobotPort::isConnected() const {
@@ -41,6 +46,12 @@ void RobotPort::publish(const SensorReadings& readings) {
   if (readings.scan) scan_.publish(boost::make_shared<sensor_msgs::LaserScan>(toMessage(*readings.scan, frame("lidar"))));
   if (readings.cloud) {
     points_.publish(boost::make_shared<sensor_msgs::PointCloud2>(toMessage(*readings.cloud, frame("lidar"))));
+  }
+  for (const Payload& payload : readings.packets) {
+    auto packet = boost::make_shared<parley_msgs::Packet>();
+    packet->stamp = toRosTime(readings.clock);
+    packet->data = payload;
+    received_.publish(packet);
   }
 }
 
@@ -68,6 +79,7 @@ void RobotPort::reset() {
   command_ = {};
   command_time_ = -1e9;
   state_ = DriveState::kStopped;
+  sent_.clear();
 }
 
 void RobotPort::onCommand(const geometry_msgs::Twist& message) {
@@ -77,6 +89,10 @@ void RobotPort::onCommand(const geometry_msgs::Twist& message) {
 
 void RobotPort::onState(const parley_msgs::RobotState& message) {
   if (message.state <= parley_msgs::RobotState::DEAD) state_ = static_cast<DriveState>(message.state);
+}
+
+void RobotPort::onSent(const parley_msgs::Packet& message) {
+  if (sent_.size() < kMostSent) sent_.push_back(message.data);
 }
 
 }  // namespace parley::sim

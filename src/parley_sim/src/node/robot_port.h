@@ -2,10 +2,13 @@
 #pragma once
 
 #include <geometry_msgs/Twist.h>
+#include <parley_msgs/Packet.h>
 #include <parley_msgs/RobotState.h>
 #include <ros/node_handle.h>
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "parley_geometry/status.h"
 #include "parley_sim/contacts.h"
@@ -14,7 +17,8 @@
 
 namespace parley::sim {
 
-/// One simulated robot's topics, in a namespace of its name: its sensors out, its commands in. Frames carry the robot's
+/// One simulated robot's topics, in a namespace of its name: its sensors and what its radio receives out, its commands and what
+/// it sends in. Frames carry the robot's
 /// name as prefix, as all robots share one tf tree.
 class RobotPort {
  public:
@@ -34,17 +38,21 @@ class RobotPort {
   /// The last command, or to stand if there was none for half a second. `time` [s] of the simulation.
   Twist2 command(double time) const;
   DriveState state() const { return state_; }
+  /// What the robot has sent since the last call.
+  std::vector<Payload> takeSent() { return std::exchange(sent_, {}); }
   /// Forgets commands, as when time starts again.
   void reset();
 
  private:
   void onCommand(const geometry_msgs::Twist& message);
   void onState(const parley_msgs::RobotState& message);
+  void onSent(const parley_msgs::Packet& message);
 
   std::string name_;
   Eigen::Vector2d goal_odom_;  // [m]
-  ros::Publisher scan_, points_, odometry_, truth_, goal_;
-  ros::Subscriber command_subscriber_, state_subscriber_;
+  ros::Publisher scan_, points_, odometry_, truth_, goal_, received_;
+  ros::Subscriber command_subscriber_, state_subscriber_, sent_subscriber_;
+  std::vector<Payload> sent_;
   Twist2 command_;
   double command_time_ = -1e9;  // [s]
   DriveState state_ = DriveState::kStopped;

@@ -26,6 +26,7 @@ class RemoteBrain : public Brain {
     BrainOutput output;
     output.twist = port_.command(readings.clock);
     output.state = port_.state();
+    output.packets = port_.takeSent();
     return output;
   }
 
