@@ -35,7 +35,7 @@ void ParameterLoader::flatten(const std::string& group, XmlRpc::XmlRpcValue& tre
         values[key] = static_cast<std::string>(value);
         break;
       case XmlRpc::XmlRpcValue::TypeStruct:
-        flatten(group.empty() ? key : group + "/" + key, value);
+        flatten(group.empty() ? key : std::string(group).append("/").append(key), value);
         break;
       default:
         problems_.push_back(sourceOf(group).append(": ").append(key).append(": must be a single value or a dictionary"));

@@ -166,6 +166,7 @@ void TeamLink::tellMap(const std::vector<Contour>& contours, double now) {
   if (!mapIsDue(now)) return;
   told_map_at_ = now;
   std::vector<OwnContour> own;
+  own.reserve(contours.size());
   for (const Contour& c : contours) own.push_back({keyOf(c), c.polygon, c.closed, c.hole, now});
   exchange_.publishContours(own, now);
 }
