@@ -31,7 +31,7 @@ void Worker::start() {
   thread_ = std::thread([this] { loop(); });
 }
 
-void Worker::every(const ros::NodeHandle& nh, double period, Work work) {
+void Worker::every(const ros::NodeHandle& nh, double period, const Work& work) {
   ros::TimerOptions options(
       ros::Duration(period), [this, work](const ros::TimerEvent&) { run(work); }, &queue_);
   timers_.push_back(nh.createTimer(options));

@@ -13,16 +13,15 @@ constexpr double kContact = 0.01;  // [m] nearer than this counts as touching
 
 double towards(double from, double to, double change) { return from + std::clamp(to - from, -change, change); }
 
-/// Brakes with the turn rate that `curvatureFor(state, speed after the step)` asks for.
+/// Brakes with the turn rate that `curvature(twist, speed after the step)` asks for.
 template <class Curvature>
-SampledTrajectory braked(const TrajectoryPoint& from, const MotionLimits& limits, double time_step,
-                         const Curvature& curvatureFor) {
+SampledTrajectory braked(const TrajectoryPoint& from, const MotionLimits& limits, double time_step, const Curvature& curvature) {
   std::vector<TrajectoryPoint> points{from};
   while (points.back().twist.speed != 0.0 || points.back().twist.turn_rate != 0.0) {
     TrajectoryPoint p = points.back();
     const Twist2 before = p.twist;
     p.twist.speed = towards(before.speed, 0.0, limits.acceleration * time_step);
-    const double wanted = std::clamp(curvatureFor(before, p.twist.speed) * p.twist.speed, -limits.turn_rate, limits.turn_rate);
+    const double wanted = std::clamp(curvature(before, p.twist.speed) * p.twist.speed, -limits.turn_rate, limits.turn_rate);
     p.twist.turn_rate = towards(before.turn_rate, wanted, limits.turn_acceleration * time_step);
     p.pose =
         integrateTwist(p.pose, 0.5 * (before.speed + p.twist.speed), 0.5 * (before.turn_rate + p.twist.turn_rate), time_step);

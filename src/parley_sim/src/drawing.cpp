@@ -99,6 +99,7 @@ struct Drawing::Canvas {
   }
   void line(const std::vector<Eigen::Vector2d>& points, bool closed, const cv::Scalar& color, int width) {
     std::vector<cv::Point> pixels;
+    pixels.reserve(points.size());
     for (const Eigen::Vector2d& point : points) pixels.push_back(fine(point));
     if (!pixels.empty()) cv::polylines(image, pixels, closed, color, width, cv::LINE_AA, kShift);
   }

@@ -35,6 +35,7 @@ class Canvas {
   }
   void polyline(const std::vector<Eigen::Vector2d>& points, const cv::Scalar& color, int thickness, bool closed = false) {
     std::vector<cv::Point> pixels;
+    pixels.reserve(points.size());
     for (const Eigen::Vector2d& p : points) pixels.push_back(pixel(p));
     cv::polylines(image_, pixels, closed, color, thickness, cv::LINE_AA, kShift);
   }

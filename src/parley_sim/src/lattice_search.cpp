@@ -42,8 +42,8 @@ LatticeSearch::LatticeSearch(const World& world, double radius)
     : world_(world),
       radius_(radius),
       spacing_(spacingFor(world.frame().resolution)),
-      width_(static_cast<int>(world.frame().size().x() / spacing_ + 0.5) + 1),
-      height_(static_cast<int>(world.frame().size().y() / spacing_ + 0.5) + 1),
+      width_(static_cast<int>(std::lround(world.frame().size().x() / spacing_)) + 1),
+      height_(static_cast<int>(std::lround(world.frame().size().y() / spacing_)) + 1),
       free_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), -1) {}
 
 Eigen::Vector2d LatticeSearch::pointOf(int node) const {

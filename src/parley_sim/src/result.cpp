@@ -54,7 +54,7 @@ std::optional<double> ratio(double a, double b) { return b > 0.0 ? std::optional
 
 std::optional<double> percentile(std::vector<float> seconds, double fraction) {
   if (seconds.empty()) return std::nullopt;
-  const auto rank = static_cast<std::ptrdiff_t>(fraction * static_cast<double>(seconds.size() - 1) + 0.5);
+  const auto rank = static_cast<std::ptrdiff_t>(std::lround(fraction * static_cast<double>(seconds.size() - 1)));
   std::nth_element(seconds.begin(), seconds.begin() + rank, seconds.end());
   return 1000.0 * static_cast<double>(seconds[static_cast<std::size_t>(rank)]);
 }
@@ -63,7 +63,7 @@ std::optional<double> percentile(std::vector<float> seconds, double fraction) {
 std::optional<double> ranked(std::vector<double> values, double fraction) {
   if (values.empty()) return std::nullopt;
   std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(fraction * static_cast<double>(values.size() - 1) + 0.5)];
+  return values[static_cast<std::size_t>(std::lround(fraction * static_cast<double>(values.size() - 1)))];
 }
 
 void addLocalization(const FleetRunner& runner, Result& result) {

@@ -86,7 +86,7 @@ Result runFleet(const Arguments& arguments) {
 
   const double wall = drive(runner, observers);
   progress.finish();
-  const Result result = resultOf(runner, arguments.variant, wall);
+  Result result = resultOf(runner, arguments.variant, wall);
   if (!arguments.json.empty()) std::ofstream(arguments.json) << toJson(result);
   if (!arguments.picture.empty()) picture.write(arguments.picture, runner);
   return result;

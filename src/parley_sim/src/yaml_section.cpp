@@ -29,8 +29,8 @@ std::string oneLine(const std::string& text) { return text.substr(0, text.find('
 
 }  // namespace
 
-YamlSection::YamlSection(YAML::Node node, std::string file, std::string path)
-    : node_(std::move(node)), file_(std::move(file)), path_(std::move(path)) {
+YamlSection::YamlSection(const YAML::Node& node, std::string file, std::string path)
+    : node_(node), file_(std::move(file)), path_(std::move(path)) {
   if (node_.IsMap() || node_.IsNull()) return;
   throw InputError(file_ + ": " + (path_.empty() ? "the file" : path_) + ": must be a map of keys and values");
 }

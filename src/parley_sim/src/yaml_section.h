@@ -21,7 +21,7 @@ struct Range {
 class YamlSection {
  public:
   /// `path`: dotted path of the section in the file, empty for the whole.
-  YamlSection(YAML::Node node, std::string file, std::string path);
+  YamlSection(const YAML::Node& node, std::string file, std::string path);
 
   bool has(const std::string& key) const;
   /// Throws unless the key is there.

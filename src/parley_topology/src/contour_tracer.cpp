@@ -107,6 +107,7 @@ class TileTracer {
     }
     cv::approxPolyDP(points, kept, simplify_, closed);
     std::vector<Eigen::Vector2d> result;
+    result.reserve(kept.size());
     for (const cv::Point2f& p : kept) result.push_back(corner + Eigen::Vector2d(p.x, p.y));
     if (!closed) {  // both tiles must agree on the shared point to the last bit
       result.front() = refined(*first);

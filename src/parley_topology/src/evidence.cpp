@@ -36,7 +36,7 @@ void addToTile(Tile& tile, const ScanImage& image, const CellRect& part, const V
       const std::uint8_t mark = row[x];
       if (mark == kNothing || mark == kKeep) continue;
       const std::size_t i = offsetOf(x, y);
-      const int before = tile.evidence[i];
+      const int before{tile.evidence[i]};
       const int after = voting.vote(before, mark);
       if (after == before) continue;
       tile.evidence[i] = static_cast<std::int8_t>(after);

@@ -28,7 +28,7 @@ class Worker {
   /// Starts the thread; nothing runs before. To be called when the node is complete.
   void start();
   /// Runs work every `period` seconds of ROS time.
-  void every(const ros::NodeHandle& nh, double period, Work work);
+  void every(const ros::NodeHandle& nh, double period, const Work& work);
   /// Runs work as soon as the thread is free.
   void post(Work work);
   /// Ends the thread: after this, none of the work runs again.
