@@ -3,10 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <limits>
-#include <sstream>
 
+#include "parley_geometry/option_conformance.h"
 #include "scenes.h"
 
 namespace parley {
@@ -177,38 +176,9 @@ TEST(PlannerConstruction, RefusesBadOptions) {
   moved.reset();
 }
 
-TEST(PlannerConfig, FileEqualsDefaults) {
-  std::ifstream file(PARLEY_PLANNER_CONFIG);
-  ASSERT_TRUE(file) << PARLEY_PLANNER_CONFIG;
-  OptionValues values;
-  for (std::string line; std::getline(file, line);) {
-    line = line.substr(0, line.find('#'));
-    const std::size_t colon = line.find(':');
-    if (colon == std::string::npos) continue;
-    std::istringstream text(line.substr(colon + 1));
-    std::string value;
-    text >> value;
-    const std::string key = line.substr(0, colon);
-    if (value == "true" || value == "false") {
-      values[key] = value == "true";
-    } else if (value.find('.') == std::string::npos) {
-      values[key] = std::stol(value);
-    } else {
-      values[key] = std::stod(value);
-    }
-  }
-  PlannerOptions loaded;
-  EXPECT_TRUE(loadOptions(loaded, values, "planner.yaml").empty());
-  EXPECT_EQ(valuesOf(listOptions(loaded)), valuesOf(listOptions(PlannerOptions())));
-  EXPECT_EQ(values.size(), listOptions(PlannerOptions()).size());
-}
+TEST(PlannerConfig, FileEqualsDefaults) { expectFileHoldsDefaults<PlannerOptions>(PARLEY_PLANNER_CONFIG); }
 
-TEST(PlannerReadme, ListsTheOptions) {
-  std::ifstream file(PARLEY_PLANNER_README);
-  std::stringstream text;
-  text << file.rdbuf();
-  EXPECT_NE(text.str().find(optionTable(listOptions(PlannerOptions()))), std::string::npos);
-}
+TEST(PlannerReadme, ListsTheOptions) { expectTableIn<PlannerOptions>(PARLEY_PLANNER_README); }
 
 }  // namespace
 }  // namespace parley
