@@ -107,8 +107,12 @@ robot_6 147.0  51.0    3.0 124.0
 robot_7 147.0  93.0   23.5  78.5
 robot_8 147.0 145.0    3.0   9.0
 '''
+# Odometry drifts by more than the goal's tolerance on ways of some hundred metres.
+BY_ODOMETRY = 'judge: odometry'
 WORLDS = [World('campus', campus(), ROBOTS, 0.1)]
 SCENARIOS = [
-    Scenario('campus', 'campus', 'Eight robots with long ways through a campus of nine buildings; large maps.', 900, ROBOTS),
-    Scenario('campus_solo', 'campus', 'One robot alone with a long way through the campus.', 900, ROBOTS.splitlines()[1]),
+    Scenario('campus', 'campus', 'Eight robots with long ways through a campus of nine buildings; large maps.', 900, ROBOTS,
+             BY_ODOMETRY),
+    Scenario('campus_solo', 'campus', 'One robot alone with a long way through the campus.', 900, ROBOTS.splitlines()[1],
+             BY_ODOMETRY),
 ]
