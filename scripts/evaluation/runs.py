@@ -30,7 +30,10 @@ def subset(scenario_path, names):
 
 def groups(scenario_path, arguments):
     """Names of the robots of each run of a scenario: one each (solo) or mixed from both sides (fleet)."""
-    names = [r["name"] for r in yaml.safe_load(scenario_path.read_text())["robots"]]
+    scenario = yaml.safe_load(scenario_path.read_text())
+    if not isinstance(scenario, dict) or "robots" not in scenario:
+        sys.exit(f"{scenario_path}: robots: missing; this is not a scenario")
+    names = [r["name"] for r in scenario["robots"]]
     if arguments.mode == "solo":
         return [[name] for name in names]
     half = (len(names) + 1) // 2
