@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "changed_blocks.h"
 
-#include <limits>
+#include "square_walk.h"
 
 namespace parley {
 namespace {
@@ -40,36 +40,45 @@ ChangedBlocks::Touch ChangedBlocks::touchOf(const Eigen::Vector2d& a, const Eige
   const double low[2] = {static_cast<double>(rect_.x0), static_cast<double>(rect_.y0)};
   const double high[2] = {static_cast<double>(rect_.x1), static_cast<double>(rect_.y1)};
   double enter = 0.0, leave = 1.0;  // the part of the way within the rectangle, as fractions
-  double next[2], step[2];          // fractions at which the next line between blocks is crossed, and between such lines
   const Eigen::Vector2d from = a / block_, way = (b - a) / block_;
   for (int k = 0; k < 2; ++k) {
     if (std::abs(way[k]) < 1e-12) {
-      if (from[k] < low[k] || from[k] >= high[k]) return kUntouched;
+      if (from[k] < low[k] || from[k] >= high[k]) return {};
       continue;
     }
     const double t0 = (low[k] - from[k]) / way[k], t1 = (high[k] - from[k]) / way[k];
     enter = std::max(enter, std::min(t0, t1));
     leave = std::min(leave, std::max(t0, t1));
   }
-  if (enter > leave) return kUntouched;
-  int cell[2], sign[2];
-  for (int k = 0; k < 2; ++k) {
-    const double at_entry = from[k] + enter * way[k];
-    cell[k] = std::clamp(static_cast<int>(std::floor(at_entry)), static_cast<int>(low[k]), static_cast<int>(high[k]) - 1);
-    sign[k] = way[k] > 0.0 ? 1 : -1;
-    const bool still = std::abs(way[k]) < 1e-12;
-    step[k] = still ? std::numeric_limits<double>::infinity() : 1.0 / std::abs(way[k]);
-    next[k] = still ? step[k] : (cell[k] + (sign[k] > 0 ? 1 : 0) - from[k]) / way[k];
-  }
-  Touch touch = kUntouched;
-  while (cell[0] >= rect_.x0 && cell[0] < rect_.x1 && cell[1] >= rect_.y0 && cell[1] < rect_.y1) {
-    touch = std::max(touch, static_cast<Touch>(at(cell[0], cell[1])));
-    const int k = next[0] < next[1] ? 0 : 1;
-    if (touch == kPassage || next[k] > leave) return touch;
-    cell[k] += sign[k];
-    next[k] += step[k];
-  }
+  if (enter > leave) return {};
+  SquareWalk walk(from, way, enter, rect_);
+  Touch touch;
+  double entered = enter;
+  do {
+    const bool inside = walk.x() >= rect_.x0 && walk.x() < rect_.x1 && walk.y() >= rect_.y0 && walk.y() < rect_.y1;
+    if (!inside) break;
+    const double left = walk.leavesAt();
+    const auto bearing = static_cast<Bearing>(at(walk.x(), walk.y()));
+    touch.bearing = std::max(touch.bearing, bearing);
+    if (bearing == kPassage) {
+      touch.from = std::min(touch.from, entered);
+      touch.to = std::min(left, 1.0);
+    }
+    entered = left;
+  } while (walk.advance(leave));
   return touch;
+}
+
+std::vector<Eigen::Vector2i> ChangedBlocks::tiles() const {
+  std::vector<Eigen::Vector2i> tiles;
+  forEachTile(cells(), [&](int tx, int ty, const CellRect& part) {
+    bool any = false;
+    for (int y = part.y0 / kBlockSize; y < part.y1 / kBlockSize && !any; ++y) {
+      for (int x = part.x0 / kBlockSize; x < part.x1 / kBlockSize && !any; ++x) any = at(x, y) != kUntouched;
+    }
+    if (any) tiles.emplace_back(tx, ty);
+  });
+  return tiles;
 }
 
 }  // namespace parley

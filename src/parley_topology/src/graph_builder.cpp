@@ -160,24 +160,20 @@ std::vector<int> GraphBuilder::matchCorners(TiledMap& map, const std::vector<Til
 
 /// Looks again at edges that lead past a change, and at pairs that were shut where something changed.
 bool GraphBuilder::refreshPairs(TiledMap& map, const ChangedBlocks& changed) {
-  std::vector<int> affected = pairsNoLongerShut(map);
-  bool any = !affected.empty();
-  std::vector<int> slots = slotsWithin(map, changed.cells().grown(cellsOf(options_.max_edge)));
-  slots.insert(slots.end(), at_unknown_.begin(), at_unknown_.end());  // with edges of any length
-  std::sort(slots.begin(), slots.end());
-  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
-  for (const int slot : slots) {
-    for (const VisibilityGraph::Link& link : graph_.links(slot)) {
-      Edge& edge = graph_.edge(link.edge);
-      if (edge.from != slot) continue;
-      const ChangedBlocks::Touch touch = changed.touchOf(graph_.vertex(slot).position, graph_.vertex(link.to).position);
-      if (touch == ChangedBlocks::kUntouched) continue;
-      any = true;
-      edge.measured = false;
-      if (touch == ChangedBlocks::kPassage) affected.push_back(pair_of_edge_[static_cast<std::size_t>(link.edge)]);
-    }
+  const std::vector<int> freed = pairsNoLongerShut(map);
+  bool any = !freed.empty();
+  for (const int pair : passes_.pairsAt(changed, [this](const Watch& w) { return isVoid(w); })) {
+    Pair& p = pairs_[static_cast<std::size_t>(pair)];
+    const Eigen::Vector2d a = graph_.vertex(p.a).position, b = graph_.vertex(p.b).position;
+    const ChangedBlocks::Touch touch = changed.touchOf(a, b);
+    if (touch.bearing == ChangedBlocks::kUntouched) continue;
+    any = true;
+    graph_.edge(p.edge).measured = false;
+    if (touch.bearing != ChangedBlocks::kPassage) continue;
+    const Walk walk = Sight(map, options_, shape_).walk(a, b, touch.from, touch.to);  // elsewhere it is open as before
+    if (!walk.open) shut(map, pair, walk.blocked_at);
   }
-  for (const int pair : affected) settle(map, pair);
+  for (const int pair : freed) settle(map, pair);
   return any;
 }
 
@@ -195,15 +191,13 @@ std::vector<int> GraphBuilder::pairsNoLongerShut(TiledMap& map) {
   std::vector<int> freed;
   for (Tile* tile : map.changed()) {
     if (!tile->changed_passable) continue;
-    std::vector<Watch> kept;
-    for (const Watch& watch : tile->watches) {
-      const Pair& pair = pairs_[static_cast<std::size_t>(watch.pair)];
-      if (pair.version != watch.version) continue;
-      const bool shut = !(map.flags(pair.blocked_at.x(), pair.blocked_at.y()) & kPassable);
-      if (shut) kept.push_back(watch);
+    tile->watches.sweep([&](const Watch& watch) {
+      if (isVoid(watch)) return true;
+      const Eigen::Vector2i& cell = pairs_[static_cast<std::size_t>(watch.pair)].blocked_at;
+      const bool shut = !(map.flags(cell.x(), cell.y()) & kPassable);
       if (!shut) freed.push_back(watch.pair);
-    }
-    tile->watches = std::move(kept);
+      return !shut;
+    });
   }
   return freed;
 }
@@ -243,35 +237,31 @@ void GraphBuilder::tryPair(TiledMap& map, int slot, int other) {
   Pair& made = pairs_[static_cast<std::size_t>(pair)];
   made.a = slot;
   made.b = other;
-  pairs_of_[static_cast<std::size_t>(slot)].push_back(pair);
-  pairs_of_[static_cast<std::size_t>(other)].push_back(pair);
+  for (const int of : {slot, other}) {
+    pairs_of_[static_cast<std::size_t>(of)].add({pair, made.life}, [this](const Watch& w) { return isOfAnother(w); });
+  }
   settle(map, pair);
 }
 
-/// Walks a pair's way: makes or removes its edge, and sets its watch.
+/// Walks the way of a pair without an edge: makes its edge, or sets its watch.
 void GraphBuilder::settle(TiledMap& map, int pair) {
   Pair& p = pairs_[static_cast<std::size_t>(pair)];
   const Sight sight(map, options_, shape_);
   const Vertex& a = graph_.vertex(p.a);
   const Vertex& b = graph_.vertex(p.b);
   const Walk walk = sight.walk(a.position, b.position);
-  ++p.version;
   if (!walk.open) {
-    if (p.edge >= 0) graph_.removeEdge(p.edge);
-    p.edge = -1;
-    p.blocked_at = walk.blocked_at;
-    watch(map, pair);
+    shut(map, pair, walk.blocked_at);
     return;
   }
-  if (p.edge >= 0) return;
+  ++p.version;
   Edge edge;
   edge.from = p.a;
   edge.to = p.b;
   edge.length = (b.position - a.position).norm();
   edge.provenance = a.provenance.hops >= b.provenance.hops ? a.provenance : b.provenance;
   p.edge = graph_.addEdge(edge);
-  if (static_cast<std::size_t>(p.edge) >= pair_of_edge_.size()) pair_of_edge_.resize(static_cast<std::size_t>(p.edge) + 1);
-  pair_of_edge_[static_cast<std::size_t>(p.edge)] = pair;
+  passes_.add({pair, p.version}, a.position, b.position, [this](const Watch& w) { return isVoid(w); });
 }
 
 void GraphBuilder::measureEdges(const TiledMap& map) {
@@ -279,20 +269,23 @@ void GraphBuilder::measureEdges(const TiledMap& map) {
   for (int slot = 0; slot < graph_.edgeSlotCount(); ++slot) measureEdge(graph_, slot, sight);
 }
 
-void GraphBuilder::watch(TiledMap& map, int pair) {
-  const Pair& p = pairs_[static_cast<std::size_t>(pair)];
-  Tile& tile = *map.find(tileOf(p.blocked_at.x()), tileOf(p.blocked_at.y()));  // only cells of tiles block
-  if (tile.watches.size() > 2 * tile.watches_after_sweep + 64) {
-    const auto stale = [this](const Watch& w) { return pairs_[static_cast<std::size_t>(w.pair)].version != w.version; };
-    tile.watches.erase(std::remove_if(tile.watches.begin(), tile.watches.end(), stale), tile.watches.end());
-    tile.watches_after_sweep = tile.watches.size();
-  }
-  tile.watches.push_back({pair, p.version});
+/// Takes a pair's edge away, if there is one, and watches the cell that is in its way.
+void GraphBuilder::shut(TiledMap& map, int pair, const Eigen::Vector2i& blocked_at) {
+  Pair& p = pairs_[static_cast<std::size_t>(pair)];
+  ++p.version;
+  if (p.edge >= 0) graph_.removeEdge(p.edge);
+  p.edge = -1;
+  p.blocked_at = blocked_at;
+  Tile& tile = *map.find(tileOf(blocked_at.x()), tileOf(blocked_at.y()));  // only cells of tiles block
+  tile.watches.add({pair, p.version}, [this](const Watch& w) { return isVoid(w); });
 }
 
 void GraphBuilder::removeVertex(int slot) {
-  std::vector<int>& pairs = pairs_of_[static_cast<std::size_t>(slot)];
-  while (!pairs.empty()) removePair(pairs.back());
+  WatchList& pairs = pairs_of_[static_cast<std::size_t>(slot)];
+  for (const Watch& entry : pairs.entries) {
+    if (!isOfAnother(entry)) removePair(entry.pair);
+  }
+  pairs = {};
   at_unknown_.erase(slot);
   graph_.removeVertex(slot);
 }
@@ -300,14 +293,9 @@ void GraphBuilder::removeVertex(int slot) {
 void GraphBuilder::removePair(int pair) {
   Pair& p = pairs_[static_cast<std::size_t>(pair)];
   if (p.edge >= 0) graph_.removeEdge(p.edge);
-  for (const int end : {p.a, p.b}) {
-    std::vector<int>& pairs = pairs_of_[static_cast<std::size_t>(end)];
-    const auto place = std::find(pairs.begin(), pairs.end(), pair);
-    *place = pairs.back();
-    pairs.pop_back();
-  }
   p.a = p.b = p.edge = -1;
   ++p.version;
+  ++p.life;
   free_pairs_.push_back(pair);
 }
 

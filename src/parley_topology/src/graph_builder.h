@@ -8,6 +8,7 @@
 #include "corners.h"
 #include "layer_store.h"
 #include "parley_topology/visibility_graph.h"
+#include "pass_index.h"
 #include "sight.h"
 #include "tiled_map.h"
 
@@ -20,7 +21,8 @@ namespace parley {
 /// in all tiles it passes.
 class GraphBuilder {
  public:
-  GraphBuilder(const TopologyOptions& options, const FieldShape& shape) : options_(options), shape_(shape) {}
+  GraphBuilder(const TopologyOptions& options, const FieldShape& shape)
+      : options_(options), shape_(shape), passes_(options.resolution) {}
 
   struct Result {
     int added = 0, removed = 0;
@@ -38,9 +40,10 @@ class GraphBuilder {
 
  private:
   struct Pair {
-    int a = -1, b = -1;  // slots of vertices; a < 0 is an empty slot
-    int edge = -1;       // slot of the edge if open
-    std::uint32_t version = 0;
+    int a = -1, b = -1;         // slots of vertices; a < 0 is an empty slot
+    int edge = -1;              // slot of the edge if open
+    std::uint32_t version = 0;  // of what is known of the way
+    std::uint32_t life = 0;     // of the slot: raised when the pair is removed
     Eigen::Vector2i blocked_at = Eigen::Vector2i::Zero();
   };
 
@@ -52,8 +55,9 @@ class GraphBuilder {
   int cellsOf(double length) const { return static_cast<int>(std::ceil(length / options_.resolution)); }
   std::vector<int> slotsWithin(const TiledMap& map, const CellRect& cells) const;
   void settle(TiledMap& map, int pair);
-  void watch(TiledMap& map, int pair);
-  void watchTile(Tile& tile, int pair);
+  void shut(TiledMap& map, int pair, const Eigen::Vector2i& blocked_at);
+  bool isVoid(const Watch& watch) const { return pairs_[static_cast<std::size_t>(watch.pair)].version != watch.version; }
+  bool isOfAnother(const Watch& entry) const { return pairs_[static_cast<std::size_t>(entry.pair)].life != entry.version; }
   void removeVertex(int slot);
   void removePair(int pair);
 
@@ -62,9 +66,9 @@ class GraphBuilder {
   VisibilityGraph graph_;
   std::vector<Pair> pairs_;
   std::vector<int> free_pairs_;
-  std::vector<int> pair_of_edge_;           // by slot of an edge
-  std::vector<std::vector<int>> pairs_of_;  // by slot of a vertex
-  std::set<int> at_unknown_;                // slots of vertices at unseen space
+  PassIndex passes_;
+  std::vector<WatchList> pairs_of_;  // by slot of a vertex, with lives
+  std::set<int> at_unknown_;         // slots of vertices at unseen space
   int next_id_ = 0;
   bool saturated_ = false;
 };

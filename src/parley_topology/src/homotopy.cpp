@@ -43,19 +43,26 @@ std::vector<Eigen::Vector2d> obstaclePoints(const TiledMap& map) {
   return points;
 }
 
-bool sameClass(const std::vector<Eigen::Vector2d>& obstacles, const std::vector<Eigen::Vector2d>& a,
-               const std::vector<Eigen::Vector2d>& b) {
+std::vector<Eigen::Vector2d> pointsBetween(const std::vector<Eigen::Vector2d>& obstacles, const std::vector<Eigen::Vector2d>& a,
+                                           const std::vector<Eigen::Vector2d>& b) {
+  std::vector<Eigen::Vector2d> between;
   const std::vector<Eigen::Vector2d> loop = differenceLoop(a, b);
-  if (loop.size() < 3) return true;
+  if (loop.size() < 3) return between;
   Eigen::Vector2d low = loop.front(), high = loop.front();
   for (const Eigen::Vector2d& p : loop) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  return std::none_of(obstacles.begin(), obstacles.end(), [&](const Eigen::Vector2d& p) {
+  for (const Eigen::Vector2d& p : obstacles) {
     const bool near = (p.array() >= low.array()).all() && (p.array() <= high.array()).all();
-    return near && windingNumber(loop, p) != 0;
-  });
+    if (near && windingNumber(loop, p) != 0) between.push_back(p);
+  }
+  return between;
+}
+
+bool sameClass(const std::vector<Eigen::Vector2d>& obstacles, const std::vector<Eigen::Vector2d>& a,
+               const std::vector<Eigen::Vector2d>& b) {
+  return pointsBetween(obstacles, a, b).empty();
 }
 
 }  // namespace parley

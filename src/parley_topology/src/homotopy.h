@@ -14,8 +14,11 @@ int windingNumber(const std::vector<Eigen::Vector2d>& loop, const Eigen::Vector2
 /// A point of each obstacle in each tile. [m]
 std::vector<Eigen::Vector2d> obstaclePoints(const TiledMap& map);
 
-/// Whether two ways with common ends pass all obstacles on the same sides: the loop out along one and back along the
-/// other goes around none of their points.
+/// The obstacle points that a loop out along one way and back along another goes around; the ways have common ends.
+std::vector<Eigen::Vector2d> pointsBetween(const std::vector<Eigen::Vector2d>& obstacles, const std::vector<Eigen::Vector2d>& a,
+                                           const std::vector<Eigen::Vector2d>& b);
+
+/// Whether two ways with common ends pass all obstacles on the same sides: there are none between them.
 bool sameClass(const std::vector<Eigen::Vector2d>& obstacles, const std::vector<Eigen::Vector2d>& a,
                const std::vector<Eigen::Vector2d>& b);
 

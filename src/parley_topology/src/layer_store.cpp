@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "layer_store.h"
 
+#include <iterator>
+
 namespace parley {
 namespace {
 
@@ -37,6 +39,13 @@ void addToCounts(TiledMap& map, const std::vector<std::uint64_t>& cells, bool ha
     tile->changed_seen = static_cast<std::uint16_t>(tile->changed_seen | block);
     map.note(*tile);
   }
+}
+
+/// What is in `a` and not in `b`, both sorted.
+std::vector<std::uint64_t> difference(const std::vector<std::uint64_t>& a, const std::vector<std::uint64_t>& b) {
+  std::vector<std::uint64_t> only;
+  std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(only));
+  return only;
 }
 
 bool sameOutlines(const LayerUpdate& a, const LayerUpdate& b) {
@@ -92,11 +101,20 @@ bool LayerStore::set(TiledMap& map, const LayerUpdate& layer) {
     held->second.provenance = provenance;
     return true;
   }
-  remove(map, layer.origin);
   Layer drawn{layer, provenance, draw(map, layer)};
   keepMapped(map, drawn.cells);
-  addToCounts(map, drawn.cells, layer.obstacle, 1);
-  layers_.emplace(layer.origin, std::move(drawn));
+  const bool comparable =
+      held != layers_.end() && held->second.update.obstacle == layer.obstacle && held->second.provenance.hops == layer.hops;
+  if (!comparable) {
+    remove(map, layer.origin);
+    addToCounts(map, drawn.cells, layer.obstacle, 1);
+    layers_.emplace(layer.origin, std::move(drawn));
+    return true;
+  }
+  const std::vector<std::uint64_t>& before = held->second.cells;
+  addToCounts(map, difference(before, drawn.cells), layer.obstacle, -1);
+  addToCounts(map, difference(drawn.cells, before), layer.obstacle, 1);
+  held->second = std::move(drawn);
   return true;
 }
 

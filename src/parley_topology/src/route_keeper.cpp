@@ -37,7 +37,27 @@ bool isStillThere(const TiledMap& map, const Eigen::Vector2d& p) {
   return false;
 }
 
+/// The way with every point left out that can be, from the front; empty if it is shut.
+std::vector<Eigen::Vector2d> shortcut(const Sight& sight, const std::vector<Eigen::Vector2d>& way) {
+  std::vector<Eigen::Vector2d> points{way.front()};
+  for (std::size_t i = 0; i + 1 < way.size();) {
+    std::size_t next = way.size() - 1;
+    while (next > i && !sight.walk(way[i], way[next]).open) --next;
+    if (next == i) return {};
+    points.push_back(way[next]);
+    i = next;
+  }
+  return points;
+}
+
 }  // namespace
+
+/// Whether two ways pass all obstacles that were known, and are still there, on the same sides.
+bool RouteKeeper::passAlike(const TiledMap& map, const std::vector<Eigen::Vector2d>& a,
+                            const std::vector<Eigen::Vector2d>& b) const {
+  const std::vector<Eigen::Vector2d> between = pointsBetween(obstacles_, a, b);
+  return std::none_of(between.begin(), between.end(), [&](const Eigen::Vector2d& p) { return isStillThere(map, p); });
+}
 
 FoundRoute RouteKeeper::search(VisibilityGraph& graph, const Sight& sight, const RouteQuery& query) const {
   if (options_.search == "depth_first") return searchDepthFirst(graph, sight, query, options_.max_expansions);
@@ -53,26 +73,25 @@ FoundRoute RouteKeeper::choose(const TiledMap& map, VisibilityGraph& graph, cons
   std::vector<Eigen::Vector2d> held = committed_;  // from here back onto it; the spur encloses nothing
   held.insert(held.begin(), query.start);
   held.back() = query.goal;
-  obstacles_.erase(
-      std::remove_if(obstacles_.begin(), obstacles_.end(), [&](const Eigen::Vector2d& p) { return !isStillThere(map, p); }),
-      obstacles_.end());
-  if (sameClass(obstacles_, held, best.points)) return best;
+  if (passAlike(map, held, best.points)) return best;
 
   FoundRoute mended = mend(map, graph, sight, query, held);
-  const bool open = mended.exists() && sameClass(obstacles_, held, mended.points);
+  const bool open = mended.exists() && passAlike(map, held, mended.points);
   const double penalty = options_.switch_penalty + options_.switch_ratio * mended.cost;
   if (open && best.cost + penalty >= mended.cost) return mended;
   ++switches_;
   return best;
 }
 
-/// The best way near the one held; over the cells where the graph has none, before that is called shut.
+/// The best way near the one held: by the graph, else what is held itself, else over the cells before it is called shut.
 FoundRoute RouteKeeper::mend(const TiledMap& map, VisibilityGraph& graph, const Sight& sight, const RouteQuery& query,
                              const std::vector<Eigen::Vector2d>& held) const {
   RouteQuery mending = query;
   mending.allowed = tubeAround(held, options_.class_tube, graph);
   FoundRoute mended = search(graph, sight, mending);
-  if (mended.exists() && sameClass(obstacles_, held, mended.points)) return mended;
+  if (mended.exists() && passAlike(map, held, mended.points)) return mended;
+  const std::vector<Eigen::Vector2d> shortened = shortcut(sight, held);
+  if (!shortened.empty() && passAlike(map, held, shortened)) return measuredRoute(sight, shortened);
   return measuredRoute(sight, searchGrid(map, sight, query.start, query.goal, options_.max_flood, held, options_.class_tube));
 }
 

@@ -22,6 +22,7 @@ class RouteKeeper {
   void clear() { *this = RouteKeeper(options_); }
 
  private:
+  bool passAlike(const TiledMap& map, const std::vector<Eigen::Vector2d>& a, const std::vector<Eigen::Vector2d>& b) const;
   FoundRoute mend(const TiledMap& map, VisibilityGraph& graph, const Sight& sight, const RouteQuery& query,
                   const std::vector<Eigen::Vector2d>& held) const;
   FoundRoute search(VisibilityGraph& graph, const Sight& sight, const RouteQuery& query) const;

@@ -8,9 +8,11 @@
 namespace parley {
 namespace {
 
-constexpr double kStep = 1.5;         // [cells] between samples along a way: what blocks is several cells thick
-constexpr double kWidthStep = 0.25;   // [m] between samples of the passage width
-constexpr double kPostRadius = 0.12;  // [m] rays across a passage end this close to an obstacle, so that they miss no post
+constexpr double kStep = 1.5;           // [cells] between samples along a way: what blocks is several cells thick
+constexpr double kFieldSlack = 0.1;     // [m] a cell's distance holds for all of it, and is rounded
+constexpr double kFieldStretch = 1.05;  // [-] the field's distances fall by up to this for a metre of way
+constexpr double kWidthStep = 0.25;     // [m] between samples of the passage width
+constexpr double kPostRadius = 0.12;    // [m] rays across a passage end this close to an obstacle, so that they miss no post
 
 /// The same way with its ends in a fixed order.
 std::pair<Eigen::Vector2d, Eigen::Vector2d> ordered(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
@@ -37,16 +39,26 @@ void measureEdge(VisibilityGraph& graph, int slot, const Sight& sight) {
   edge.measured = true;
 }
 
-Walk Sight::walk(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
+Walk Sight::walk(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double from, double to) const {
   const auto [p, q] = ordered(a, b);
+  if (p != a) {
+    from = 1.0 - std::exchange(to, 1.0 - from);
+  }
   const double inverse = 1.0 / map_.resolution();
   const double length = (q - p).norm() * inverse;
   const int steps = std::max(1, static_cast<int>(std::ceil(length / kStep)));
   const double x0 = p.x() * inverse, y0 = p.y() * inverse;
   const double dx = (q.x() - p.x()) * inverse / steps, dy = (q.y() - p.y()) * inverse / steps;
-  for (int i = 0; i <= steps; ++i) {
+  const double stride = std::max(1e-9, std::hypot(dx, dy)) * map_.resolution();
+  const int first = std::max(0, static_cast<int>(from * steps) - 1), last = std::min(steps, static_cast<int>(to * steps) + 2);
+  for (int i = first; i <= last; ++i) {
     const int x = static_cast<int>(std::floor(x0 + i * dx)), y = static_cast<int>(std::floor(y0 + i * dy));
-    if (!(map_.flags(x, y) & kPassable)) return {false, {x, y}};
+    const double room = metersOf(map_.distance(x, y), shape_.reach) - shape_.grown_radius - kFieldSlack;
+    if (room > 0.0) {
+      i += static_cast<int>(room / (kFieldStretch * stride));  // all samples up to there are wide
+    } else if (!(map_.flags(x, y) & kPassable)) {
+      return {false, {x, y}};
+    }
   }
   return {true, {}};
 }

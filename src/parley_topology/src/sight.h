@@ -23,8 +23,8 @@ class Sight {
   Sight(const TiledMap& map, const TopologyOptions& options, const FieldShape& shape)
       : map_(map), options_(options), shape_(shape) {}
 
-  /// Whether all cells along the way are passable.
-  Walk walk(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
+  /// Whether all cells along the way are passable; looked at are those of its part between two fractions.
+  Walk walk(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double from = 0.0, double to = 1.0) const;
 
   /// Length, cost and what they are made of, for a way that is open.
   Edge measure(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;

@@ -70,10 +70,27 @@ struct LayerCounts {
   std::array<std::uint8_t, kTileCells> soft{};
 };
 
-/// An entry of the list of vertex pairs whose edge depends on a tile; void once the pair's version has moved on.
+/// An entry of a list of vertex pairs; void once the pair's version has moved on.
 struct Watch {
   int pair = 0;
   std::uint32_t version = 0;
+};
+
+/// A list whose void entries are thrown out now and then, so that whoever makes an entry void need not look for it.
+struct WatchList {
+  std::vector<Watch> entries;
+  std::size_t after_sweep = 0;
+
+  template <class IsVoid>
+  void sweep(const IsVoid& is_void) {
+    entries.erase(std::remove_if(entries.begin(), entries.end(), is_void), entries.end());
+    after_sweep = entries.size();
+  }
+  template <class IsVoid>
+  void add(const Watch& entry, const IsVoid& is_void) {
+    if (entries.size() > 2 * after_sweep + 64) sweep(is_void);
+    entries.push_back(entry);
+  }
 };
 
 /// A square of the map with all that is derived from it. Bits of the `changed_` masks are blocks, row-major.
@@ -89,9 +106,8 @@ struct Tile {
   std::uint16_t changed_passable = 0;  // of these, where edges open or shut
   std::vector<Chain> chains;
   std::vector<int> vertices;  // slots
-  std::vector<Watch> watches;
-  std::size_t watches_after_sweep = 0;
-  bool noted = false;  // in the map's list of changed tiles
+  WatchList watches;          // pairs that a cell in here keeps shut
+  bool noted = false;         // in the map's list of changed tiles
 
   CellRect rect() const { return {tx * kTileSize, ty * kTileSize, (tx + 1) * kTileSize, (ty + 1) * kTileSize}; }
 };
