@@ -21,8 +21,8 @@ void vote(const Submap& judge, const Submap& other, const Pose2& T_judge_other, 
     if (isNearAScan(judge.scans(), p)) continue;
     ++result.points;
     bool seen_through = false, matched = false;
-    for (const PlacedScan& placed : judge.scans()) {
-      const Sighting sight = sightOf(placed, p, kMargin);
+    for (std::size_t i = 0; i < judge.scans().size(); ++i) {
+      const Sighting sight = judge.sight(i, p, kMargin);
       matched = matched || sight == Sighting::kMatch;
       seen_through = seen_through || sight == Sighting::kSeenThrough;
       if (matched) break;
