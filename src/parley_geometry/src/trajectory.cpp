@@ -53,23 +53,30 @@ SampledTrajectory SampledTrajectory::from(double time) const {
 
 SampledTrajectory SampledTrajectory::standing(const Pose2& pose, double time) { return SampledTrajectory({{time, pose, {}}}); }
 
-SampledTrajectory brakingTrajectory(const TrajectoryPoint& from, const MotionLimits& limits, double time_step) {
+SampledTrajectory brakingTrajectory(const TrajectoryPoint& from, const MotionLimits& limits, double time_step,
+                                    const CurvatureLaw& curvature) {
   assert(time_step > 0.0 && limits.acceleration > 0.0 && limits.turn_acceleration > 0.0);
   std::vector<TrajectoryPoint> points{from};
   while (points.back().twist.speed != 0.0 || points.back().twist.turn_rate != 0.0) {
     TrajectoryPoint p = points.back();
     const Twist2 before = p.twist;
     p.twist.speed = towardsZero(before.speed, limits.acceleration * time_step);
-    // The turn rate follows the speed, so that the path keeps its curvature, and never changes faster than it can.
-    const double kept = std::abs(before.speed) > 1e-9 ? before.turn_rate * p.twist.speed / before.speed : 0.0;
+    const double fastest = std::max(limits.turn_rate, std::abs(before.turn_rate));
+    const double wanted = std::clamp(curvature(before, p.twist.speed) * p.twist.speed, -fastest, fastest);
     const double change = limits.turn_acceleration * time_step;
-    p.twist.turn_rate = std::clamp(kept, before.turn_rate - change, before.turn_rate + change);
+    p.twist.turn_rate = std::clamp(wanted, before.turn_rate - change, before.turn_rate + change);
     p.pose =
         integrateTwist(p.pose, 0.5 * (before.speed + p.twist.speed), 0.5 * (before.turn_rate + p.twist.turn_rate), time_step);
     p.time += time_step;
     points.push_back(p);
   }
   return SampledTrajectory(std::move(points));
+}
+
+SampledTrajectory brakingTrajectory(const TrajectoryPoint& from, const MotionLimits& limits, double time_step) {
+  return brakingTrajectory(from, limits, time_step, [](const Twist2& before, double) {
+    return std::abs(before.speed) > 1e-9 ? before.turn_rate / before.speed : 0.0;
+  });
 }
 
 }  // namespace parley

@@ -11,26 +11,6 @@ namespace {
 constexpr double kSlow = 0.05;     // [m/s] a slower reference's curvature says nothing
 constexpr double kContact = 0.01;  // [m] nearer than this counts as touching
 
-double towards(double from, double to, double change) { return from + std::clamp(to - from, -change, change); }
-
-/// Brakes with the turn rate that `curvature(twist, speed after the step)` asks for.
-template <class Curvature>
-SampledTrajectory braked(const TrajectoryPoint& from, const MotionLimits& limits, double time_step, const Curvature& curvature) {
-  std::vector<TrajectoryPoint> points{from};
-  while (points.back().twist.speed != 0.0 || points.back().twist.turn_rate != 0.0) {
-    TrajectoryPoint p = points.back();
-    const Twist2 before = p.twist;
-    p.twist.speed = towards(before.speed, 0.0, limits.acceleration * time_step);
-    const double wanted = std::clamp(curvature(before, p.twist.speed) * p.twist.speed, -limits.turn_rate, limits.turn_rate);
-    p.twist.turn_rate = towards(before.turn_rate, wanted, limits.turn_acceleration * time_step);
-    p.pose =
-        integrateTwist(p.pose, 0.5 * (before.speed + p.twist.speed), 0.5 * (before.turn_rate + p.twist.turn_rate), time_step);
-    p.time += time_step;
-    points.push_back(p);
-  }
-  return SampledTrajectory(std::move(points));
-}
-
 /// Speed at the first touch; zero if there is none. [m/s]
 double speedAtContact(const TrajectoryValidator& validator, const SampledTrajectory& trajectory) {
   const Verdict verdict = validator.checkRest(trajectory, trajectory.startTime(), {kContact, 0.0, 0.0});
@@ -43,7 +23,7 @@ double speedAtContact(const TrajectoryValidator& validator, const SampledTraject
 SampledTrajectory brakingAlong(const SampledTrajectory& path, const TrajectoryPoint& from, const MotionLimits& limits,
                                double time_step) {
   double path_time = from.time;
-  return braked(from, limits, time_step, [&](const Twist2& before, double speed_after) {
+  return brakingTrajectory(from, limits, time_step, [&](const Twist2& before, double speed_after) {
     double curvature = before.speed != 0.0 ? before.turn_rate / before.speed : 0.0;
     const Twist2 reference = path.at(path_time).twist;
     if (std::abs(reference.speed) > kSlow && reference.speed * before.speed > 0.0) {
@@ -59,7 +39,7 @@ SampledTrajectory safestStop(const TrajectoryValidator& validator, const Sampled
   std::vector<SampledTrajectory> choices;
   if (!committed.empty()) choices.push_back(brakingAlong(committed, from, limits, time_step));
   choices.push_back(brakingTrajectory(from, limits, time_step));
-  choices.push_back(braked(from, limits, time_step, [](const Twist2&, double) { return 0.0; }));
+  choices.push_back(brakingTrajectory(from, limits, time_step, [](const Twist2&, double) { return 0.0; }));
   const auto slowest =
       std::min_element(choices.begin(), choices.end(), [&](const SampledTrajectory& a, const SampledTrajectory& b) {
         return speedAtContact(validator, a) < speedAtContact(validator, b);

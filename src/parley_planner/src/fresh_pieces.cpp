@@ -32,7 +32,7 @@ bool continues(const Returns& returns, std::size_t begin, std::size_t end, const
                      });
 }
 
-/// The last known return of the same thing before `i` (after it with step -1), at most kWallReturns away; `i` if none.
+/// The last known return of the same thing after `i` (before it if not `forward`), at most kWallReturns away; `i` if none.
 std::size_t knownUntil(const Returns& returns, std::size_t i, bool forward, double jump) {
   std::size_t k = i;
   for (std::size_t n = 0; n < kWallReturns; ++n) {

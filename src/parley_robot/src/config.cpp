@@ -9,6 +9,8 @@
 namespace parley {
 namespace {
 
+constexpr std::uint32_t kMostBoots = 1U << 24;  // [-] the upper bits of what is told
+
 OptionValue typedValue(const YAML::Node& node) {
   const std::string& text = node.Scalar();
   if (node.Tag() == "!") return text;  // quoted
@@ -79,6 +81,7 @@ std::vector<std::string> loadConfig(const std::string& directory, RobotOptions& 
 std::vector<std::string> checkRobot(const RobotOptions& options) {
   std::vector<std::string> problems;
   if (options.name.empty()) problems.emplace_back("robot: name: must not be empty");
+  if (options.boot >= kMostBoots) problems.push_back(options.name + ": boot: must be below " + std::to_string(kMostBoots));
   collect(options.footprint, options.name + ": footprint", problems);
   collect(options.limits, options.name + ": limits", problems);
   collect(options.mount, options.name + ": lidar mount", problems);

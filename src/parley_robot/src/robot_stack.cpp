@@ -7,7 +7,7 @@ namespace parley {
 namespace {
 
 constexpr double kTimeReset = 1.0;               // [s] going back by more means that time started again
-constexpr std::uint32_t kRestartsPerBoot = 256;  // [-]
+constexpr std::uint32_t kRestartsPerBoot = 256;  // [-] more, and it stays off the radio
 
 RobotOptions usable(const RobotOptions& options) {
   std::string all;
@@ -31,11 +31,13 @@ RobotStack::RobotStack(const RobotOptions& options)
   joinTeam();
 }
 
-/// What is told is in this odom frame: when it is another one, so is the boot.
+/// What is told is in this odom frame: when it is another one, so is the boot. With all boots used it is silent: packets of
+/// a boot that was there before would be sealed alike.
 void RobotStack::joinTeam() {
-  if (options_.variant == Variant::kReactive) return;
-  const ExchangeIdentity identity{options_.name, options_.boot * kRestartsPerBoot + restarts_ % kRestartsPerBoot, options_.key,
-                                  options_.footprint, options_.limits};
+  team_.reset();
+  if (options_.variant == Variant::kReactive || restarts_ == kRestartsPerBoot) return;
+  const ExchangeIdentity identity{options_.name, options_.boot * kRestartsPerBoot + restarts_, options_.key, options_.footprint,
+                                  options_.limits};
   ++restarts_;
   team_.emplace(options_.exchange, options_.relative_localization, identity, options_.variant != Variant::kNoSharing);
 }

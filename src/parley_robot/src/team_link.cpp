@@ -147,7 +147,6 @@ void TeamLink::locate(double now) {
   for (auto& [id, teammate] : teammates_) {
     const auto found = estimates.find(nameOf(id));
     teammate.estimate = found == estimates.end() ? PeerEstimate{} : found->second;
-    teammate.located_at = now;
     if (teammate.estimate.state == PoseState::kUnknown && !told_poses_.count(id)) continue;
     PeerPose pose{teammate.estimate.T_odom_peerodom, teammate.estimate.support, edgeStateOf(teammate.estimate.state),
                   teammate.estimate.direct};

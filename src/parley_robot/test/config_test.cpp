@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "parley_geometry/option_conformance.h"
+
 namespace parley {
 namespace {
 
@@ -52,15 +54,16 @@ TEST_F(Config, RefusesBrokenYamlAndEmptyFolders) {
   EXPECT_TRUE(load("lidar.yaml", "").empty());
 }
 
-TEST_F(Config, ShippedConfigurationIsTheDefault) {
+TEST(ShippedConfiguration, loads) {
   RobotOptions loaded;
-  const auto problems = loadConfig(PARLEY_CONFIG, loaded);
-  EXPECT_TRUE(problems.empty()) << problems.front();
-  const auto defaults = listOptions(WiringOptions{});
-  const auto shipped = listOptions(loaded.wiring);
-  ASSERT_EQ(defaults.size(), shipped.size());
-  for (std::size_t i = 0; i < defaults.size(); ++i) EXPECT_EQ(defaults[i].value, shipped[i].value) << defaults[i].name;
+  for (const std::string& problem : loadConfig(PARLEY_CONFIG, loaded)) ADD_FAILURE() << problem;
 }
+
+TEST(WiringOptions, theFileHoldsTheDefaults) { expectFileHoldsDefaults<WiringOptions>(PARLEY_CONFIG "/wiring.yaml"); }
+
+TEST(WiringOptions, theReadmeHoldsTheTable) { expectTableIn<WiringOptions>(PARLEY_ROBOT_README); }
+
+TEST(WiringOptions, theDefaultsAreInRange) { expectDefaultsInRange<WiringOptions>(); }
 
 TEST(CheckRobot, GeometryHasNoDefault) {
   RobotOptions options;
@@ -71,6 +74,18 @@ TEST(CheckRobot, GeometryHasNoDefault) {
   EXPECT_TRUE(checkRobot(options).empty());
   options.name.clear();
   EXPECT_EQ(checkRobot(options).size(), 1U);
+}
+
+TEST(CheckRobot, BootsHaveALimit) {
+  RobotOptions options;
+  options.name = "r";
+  options.footprint = {0.8, 0.4};
+  options.limits = {2.0, 1.5708, 2.0, 4.0};
+  options.boot = (1U << 24) - 1;
+  EXPECT_TRUE(checkRobot(options).empty());
+  options.boot = 1U << 24;
+  ASSERT_EQ(checkRobot(options).size(), 1U);
+  EXPECT_NE(checkRobot(options).front().find("boot"), std::string::npos);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "parley_geometry/motion.h"
@@ -41,6 +42,14 @@ class SampledTrajectory {
  private:
   std::vector<TrajectoryPoint> points_;
 };
+
+/// Curvature to drive while braking [1/m], from the twist before a time step and the speed after it [m/s].
+using CurvatureLaw = std::function<double(const Twist2& before, double speed_after)>;
+
+/// Braking from a state at constant deceleration until it stands, with the turn rate following `curvature` as fast as the
+/// turn acceleration allows. Ends with zero twist.
+SampledTrajectory brakingTrajectory(const TrajectoryPoint& from, const MotionLimits& limits, double time_step,
+                                    const CurvatureLaw& curvature);
 
 /// Braking from a state on a constant curvature at constant deceleration until it stands. Ends with zero twist.
 SampledTrajectory brakingTrajectory(const TrajectoryPoint& from, const MotionLimits& limits, double time_step);

@@ -20,7 +20,6 @@ struct Teammate {
   RobotId id = 0;
   std::string name;  // empty until a beacon came
   PeerEstimate estimate;
-  double located_at = 0.0;  // [s] time of the estimate
 };
 
 /// How others' outlines over the own map have changed.
