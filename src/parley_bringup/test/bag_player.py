@@ -5,7 +5,6 @@
 Prints `ready` when the robot listens, and plays from the moment (seconds since 1970) that comes on stdin then: several
 players keep step. Prints a line of JSON for each message about peers."""
 import json
-import math
 import sys
 import time
 
@@ -16,6 +15,8 @@ from nav_msgs.msg import Odometry
 from parley_msgs.msg import PeerArray, PeerMaps
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import LaserScan
+
+import recordings
 
 TYPES = {'/clock': Clock, '/odom': Odometry, '/scan': LaserScan}
 AFTERWARDS = 2.0   # [s] to hear what the robot says of the last messages
@@ -38,13 +39,9 @@ class Reporter:
         self.accepted = values[0] if values else self.accepted
 
     def tell(self, message):
-        peers = {peer.name: (peer.state, pose_of(peer.pose.pose)) for peer in message.peers}
+        peers = {peer.name: (peer.state, recordings.pose_of(peer.pose.pose)) for peer in message.peers}
         maps = [peer.name for peer in message.peers if f'{peer.id:08x}' in self.maps]
         print(json.dumps({'stamp': message.header.stamp.to_sec(), 'peers': peers, 'maps': maps, 'accepted': self.accepted}), flush=True)
-
-
-def pose_of(pose):
-    return pose.position.x, pose.position.y, 2.0 * math.atan2(pose.orientation.z, pose.orientation.w)
 
 
 def play(messages, publishers, start):

@@ -24,6 +24,11 @@ def difference(a, b):
     return math.hypot(a[0] - b[0], a[1] - b[1]), abs(math.remainder(a[2] - b[2], 2.0 * math.pi))
 
 
+def pose_of(pose):
+    """Of a message."""
+    return pose.position.x, pose.position.y, 2.0 * math.atan2(pose.orientation.z, pose.orientation.w)
+
+
 class Course:
     """Poses over time."""
 
@@ -45,13 +50,7 @@ class Recording:
         self.truth = Course([[float(row[key]) for key in ('time', 'x', 'y', 'yaw')] for row in rows])
         with rosbag.Bag(bag) as messages:
             odometry = [message for _, message, _ in messages.read_messages(topics=['/odom'])]
-        self.odometry = Course([self.row(message) for message in odometry])
-
-    @staticmethod
-    def row(message):
-        pose = message.pose.pose
-        yaw = 2.0 * math.atan2(pose.orientation.z, pose.orientation.w)
-        return message.header.stamp.to_sec(), pose.position.x, pose.position.y, yaw
+        self.odometry = Course([(message.header.stamp.to_sec(), *pose_of(message.pose.pose)) for message in odometry])
 
     def error_of(self, other, believed, stamp):
         """How far off the other's body is, seen from this one's, if its odom frame is where it is believed to be at that
