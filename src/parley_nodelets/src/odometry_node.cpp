@@ -43,11 +43,12 @@ void OdometryNode::process(const nav_msgs::Odometry& message) {
   if (!pose) {
     ++malformed_;
   } else if (const std::optional<Odometry> odometry = odometry_.add(message.header.stamp.toSec(), *pose)) {
-    publish(*odometry);
+    publish(*odometry, message.header.frame_id);
   }
 }
 
-void OdometryNode::publish(const Odometry& odometry) {
+/// With the base goes the frame that the poses came in, so that what is in that tree has its place beside the robot.
+void OdometryNode::publish(const Odometry& odometry, const std::string& start_frame) {
   last_stamp_ = odometry.stamp;
   const Frames& frames = config_.node.frames;
   const auto message = boost::make_shared<nav_msgs::Odometry>(toMessage(odometry, frames.odom, frames.base));
@@ -58,6 +59,14 @@ void OdometryNode::publish(const Odometry& odometry) {
   transform.transform.translation.x = odometry.pose.x;
   transform.transform.translation.y = odometry.pose.y;
   transform.transform.rotation = message->pose.pose.orientation;
+  transforms_.sendTransform(transform);
+  if (start_frame.empty() || start_frame == frames.odom) return;
+  const LidarMount& mount = config_.node.mount;
+  transform.child_frame_id = start_frame;
+  transform.transform.translation.x = mount.x;
+  transform.transform.translation.y = mount.y;
+  transform.transform.translation.z = mount.z;
+  transform.transform.rotation = toQuaternion(mount.yaw);
   transforms_.sendTransform(transform);
 }
 

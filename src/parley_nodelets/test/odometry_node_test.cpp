@@ -59,6 +59,8 @@ TEST_F(OdometryNodeTest, TellsTheBasesPoseAndTwist) {
   EXPECT_NEAR(last->twist.twist.linear.x, 1.0, 0.01);
   EXPECT_NEAR(last->twist.twist.angular.z, 0.0, 0.01);
   EXPECT_TRUE(driveUntil([&] { return buffer.canTransform("odom", "base_link", ros::Time(0)); }));
+  ASSERT_TRUE(driveUntil([&] { return buffer.canTransform("odom", "camera_init", ros::Time(0)); }));
+  EXPECT_NEAR(buffer.lookupTransform("odom", "camera_init", ros::Time(0)).transform.translation.x, 0.3, 1e-9);
 }
 
 TEST_F(OdometryNodeTest, DropsWhatIsNoPose) {

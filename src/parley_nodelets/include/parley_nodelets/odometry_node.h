@@ -15,7 +15,7 @@
 namespace parley {
 
 /// For lidar odometry that has poses in frames of its own and no twist, as Fast-LIO: `lidar_odometry` becomes `odom` and the
-/// transform from the odom to the base frame.
+/// transforms from the odom frame to the base frame and to the frame that the poses came in.
 class OdometryNode {
  public:
   /// Throws std::invalid_argument with all problems of the parameters.
@@ -24,7 +24,7 @@ class OdometryNode {
 
  private:
   void process(const nav_msgs::Odometry& message);
-  void publish(const Odometry& odometry);
+  void publish(const Odometry& odometry, const std::string& start_frame);
   void report(diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
   StageConfig<TwistOptions> config_;
