@@ -4,6 +4,7 @@ loopback where it does not."""
 import contextlib
 import dataclasses
 import os
+import re
 import socket
 import subprocess
 import typing
@@ -32,8 +33,17 @@ def remove(space):
     subprocess.run(['ip', 'netns', 'delete', space], check=False, stderr=subprocess.DEVNULL)
 
 
+def remove_left_over():
+    """Namespaces of tests that were killed."""
+    listed = subprocess.run(['ip', 'netns', 'list'], check=True, capture_output=True, text=True).stdout
+    for space, pid in re.findall(r'^(parley(\d+)\S*)', listed, re.M):
+        if not os.path.exists(f'/proc/{pid}'):
+            remove(space)
+
+
 def separate(names, stack):
     """A namespace for each host and one for the bridge between them; whatever the hosts bind is theirs alone."""
+    remove_left_over()
     air = f'parley{os.getpid()}'
     broadcast = '10.77.0.255'
     stack.callback(remove, air)

@@ -79,15 +79,11 @@ class Robot:
 
 
 class OwnMastersTest(unittest.TestCase):
-    def setUp(self):
-        self.stack = contextlib.ExitStack()
-        self.addCleanup(self.stack.close)
-
-    def start(self, recorded, folder):
+    def start(self, stack, recorded, folder):
         names = [robot['name'] for robot in SCENARIO['robots']]
-        hosts, kind = self.stack.enter_context(networks.hosts_for(names, '--loopback' in sys.argv))
+        hosts, kind = stack.enter_context(networks.hosts_for(names, '--loopback' in sys.argv))
         print('robots are apart by', kind, flush=True)
-        group = self.stack.enter_context(processes.Processes())
+        group = stack.enter_context(processes.Processes())
         robots = [Robot(group, host, recorded[host.name].bag, folder) for host in hosts]
         deadline = time.monotonic() + START
         for robot in robots:
@@ -120,16 +116,18 @@ class OwnMastersTest(unittest.TestCase):
         self.assertLess(worst[1], ANGLE, robot.name)
 
     def test_they_meet_by_radio_alone(self):
-        folder = self.stack.enter_context(tempfile.TemporaryDirectory())
-        recorded = recordings.record(SCENARIO, os.path.join(PARTS, 'config'), folder)
-        began = time.monotonic()
-        robots = self.start(recorded, folder)
-        self.await_acquaintance(robots, set(recorded))
-        print(f'acquainted {time.monotonic() - began:.0f} s after their start', flush=True)
-        for robot in robots:
-            self.check_poses(robot, recorded)
-            self.assertNotIn('process has died', robot.log())
+        with contextlib.ExitStack() as stack:   # and not addCleanup, which an interrupt skips
+            folder = stack.enter_context(tempfile.TemporaryDirectory())
+            recorded = recordings.record(SCENARIO, os.path.join(PARTS, 'config'), folder)
+            began = time.monotonic()
+            robots = self.start(stack, recorded, folder)
+            self.await_acquaintance(robots, set(recorded))
+            print(f'acquainted {time.monotonic() - began:.0f} s after their start', flush=True)
+            for robot in robots:
+                self.check_poses(robot, recorded)
+                self.assertNotIn('process has died', robot.log())
 
 
 if __name__ == '__main__':
+    processes.end_with_parent()
     rostest.rosrun('parley_bringup', 'own_masters', OwnMastersTest, sys.argv)

@@ -10,9 +10,21 @@ PR_SET_PDEATHSIG = 1
 PATIENCE = 30.0   # [s] for roslaunch to end its nodes
 
 
+def interrupt(*_):
+    raise KeyboardInterrupt
+
+
 def follow_parent():
-    """In the child: SIGINT when whoever started it is gone."""
+    """SIGINT when whoever started this process is gone, also where it was started with SIGINT ignored, as in the background."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
     ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGINT)
+
+
+def end_with_parent():
+    """For a test: it tidies up as well when it is asked to end, or when the one that runs it is killed."""
+    follow_parent()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, interrupt)
 
 
 def descendants(pid):

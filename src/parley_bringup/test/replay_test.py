@@ -83,5 +83,6 @@ class ReplayTest(unittest.TestCase):
 
 if __name__ == '__main__':
     # On wall time: simulated time stands between the two.
-    rospy.init_node('replay_test', disable_rostime=True)
+    rospy.init_node('replay_test', disable_rostime=True, disable_signals=True)
+    processes.end_with_parent()
     rostest.rosrun('parley_bringup', 'replay', ReplayTest, sys.argv)
