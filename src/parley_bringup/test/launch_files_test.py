@@ -62,6 +62,16 @@ class LaunchFiles(unittest.TestCase):
                                   'name:=ann')
             self.assertIn(' team', arguments)
 
+    def test_lidar_odometry_without_a_twist_has_a_stage_of_its_own(self):
+        for name in ('robot', 'replay'):
+            words = [os.path.join(LAUNCH, name + '.launch'), 'model:=courier', 'bag:=/none.bag', 'lidar_odometry_topic:=/Odometry']
+            parameters = yaml.safe_load(roslaunch('--dump-params', *words))
+            self.assertGreater(parameters['/odometry/longest_gap'], 0.0)
+            arguments = roslaunch('--args', 'robot', *words)
+            self.assertIn(' odometry lidar', arguments)
+            self.assertIn('lidar_odometry:=/Odometry', arguments)
+        self.assertNotIn('odometry', roslaunch('--args', 'robot', os.path.join(LAUNCH, 'robot.launch'), 'model:=courier'))
+
     def test_a_robot_without_model_is_refused(self):
         with self.assertRaises(AssertionError):
             roslaunch('--nodes', os.path.join(LAUNCH, 'robot.launch'))

@@ -6,6 +6,7 @@
 
 #include "parley_nodelets/control_node.h"
 #include "parley_nodelets/lidar_node.h"
+#include "parley_nodelets/odometry_node.h"
 #include "parley_nodelets/planner_node.h"
 #include "parley_nodelets/team_node.h"
 #include "parley_nodelets/topology_node.h"
@@ -28,6 +29,7 @@ class StageNodelet : public nodelet::Nodelet {
   std::unique_ptr<Node> node_;
 };
 
+class Odometry : public StageNodelet<parley::OdometryNode> {};
 class Lidar : public StageNodelet<parley::LidarNode> {};
 class Team : public StageNodelet<parley::TeamNode> {};
 class Topology : public StageNodelet<parley::TopologyNode> {};
@@ -36,6 +38,7 @@ class Control : public StageNodelet<parley::ControlNode> {};
 
 }  // namespace parley_nodelets
 
+PLUGINLIB_EXPORT_CLASS(parley_nodelets::Odometry, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(parley_nodelets::Lidar, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(parley_nodelets::Team, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(parley_nodelets::Topology, nodelet::Nodelet)

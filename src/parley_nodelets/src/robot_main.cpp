@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
   ros::NodeHandle nh;
   exit.answerShutdownRequests();
   if (stages.empty()) {
-    ROS_FATAL("usage: robot STAGE...   (lidar topology planner control team)");
+    ROS_FATAL("usage: robot STAGE...   (odometry lidar topology planner control team)");
     return 2;
   }
 

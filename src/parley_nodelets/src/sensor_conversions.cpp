@@ -7,6 +7,16 @@
 #include <limits>
 
 namespace parley {
+namespace {
+
+/// nullopt unless it is finite and its norm is 1 within 0.1.
+std::optional<Eigen::Matrix3d> matrixOf(const geometry_msgs::Quaternion& rotation) {
+  const Eigen::Quaterniond raw(rotation.w, rotation.x, rotation.y, rotation.z);
+  if (!(std::abs(raw.norm() - 1.0) < 0.1)) return std::nullopt;  // NaN too
+  return raw.normalized().toRotationMatrix();
+}
+
+}  // namespace
 
 ros::Time toRosTime(double seconds) {
   constexpr double kLatest = std::numeric_limits<std::uint32_t>::max();
@@ -30,10 +40,19 @@ geometry_msgs::Pose toPose(const Pose2& pose) {
 }
 
 std::optional<Attitude> attitudeOf(const geometry_msgs::Quaternion& rotation) {
-  const Eigen::Quaterniond raw(rotation.w, rotation.x, rotation.y, rotation.z);
-  if (!(std::abs(raw.norm() - 1.0) < 0.1)) return std::nullopt;  // NaN too
-  const Eigen::Matrix3d r = raw.normalized().toRotationMatrix();
+  const std::optional<Eigen::Matrix3d> matrix = matrixOf(rotation);
+  if (!matrix) return std::nullopt;
+  const Eigen::Matrix3d& r = *matrix;
   return Attitude{std::atan2(r(2, 1), r(2, 2)), std::asin(std::clamp(-r(2, 0), -1.0, 1.0)), std::atan2(r(1, 0), r(0, 0))};
+}
+
+std::optional<Eigen::Isometry3d> spatialPose(const geometry_msgs::Pose& pose) {
+  const std::optional<Eigen::Matrix3d> rotation = matrixOf(pose.orientation);
+  if (!rotation) return std::nullopt;
+  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
+  result.translation() = Eigen::Vector3d(pose.position.x, pose.position.y, pose.position.z);
+  result.linear() = *rotation;
+  return result;
 }
 
 std::optional<Odometry> fromMessage(const nav_msgs::Odometry& message) {

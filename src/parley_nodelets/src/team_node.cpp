@@ -4,16 +4,19 @@
 #include <parley_msgs/PeerArray.h>
 #include <parley_msgs/PeerMaps.h>
 #include <parley_msgs/Teammates.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include "parley_exchange/boot_counter.h"
 #include "parley_nodelets/sensor_conversions.h"
 #include "parley_nodelets/stage_conversions.h"
 #include "parley_nodelets/team_conversions.h"
+#include "parley_nodelets/team_markers.h"
 
 namespace parley {
 namespace {
 
-constexpr double kPeriod = 0.02;  // [s] at which the radio is served, the control period
+constexpr double kPeriod = 0.02;                  // [s] at which the radio is served, the control period
+constexpr std::size_t kMostMarkerPoints = 40000;  // per marker: what RViz draws without stutter
 
 }  // namespace
 
@@ -26,6 +29,7 @@ TeamNode::TeamNode(ros::NodeHandle nh, const ros::NodeHandle& pnh, const std::st
       peers_(nh.advertise<parley_msgs::PeerArray>("peers", 1)),
       peer_maps_(nh.advertise<parley_msgs::PeerMaps>("peer_maps", 1, true)),
       teammates_(nh.advertise<parley_msgs::Teammates>("teammates", 1)),
+      markers_(nh.advertise<visualization_msgs::MarkerArray>("team_markers", 1)),
       radio_(nh, config_.team.radio),
       odometry_(nh, config_.node) {
   join();
@@ -138,6 +142,9 @@ void TeamNode::exchangeMaps() {
   for (const std::string& origin : changes.removed) layers_.erase(origin);
   for (const LayerUpdate& layer : changes.drawn) layers_[layer.origin] = toMessage(layer);
   if (!changes.removed.empty() || !changes.drawn.empty()) publishMaps(now);
+  if (markers_.getNumSubscribers() == 0) return;
+  markers_.publish(boost::make_shared<visualization_msgs::MarkerArray>(
+      teamMarkers(drawnPeers(*team_, now), layers_, now, config_.node.frames.odom, kMostMarkerPoints)));
 }
 
 void TeamNode::publishMaps(double now) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "parley_nodelets/topology_markers.h"
 
+#include "marker_drawing.h"
 #include "parley_nodelets/sensor_conversions.h"
 
 namespace parley {
@@ -8,63 +9,9 @@ namespace {
 
 using visualization_msgs::Marker;
 
-std_msgs::ColorRGBA colour(float r, float g, float b, float a) {
-  std_msgs::ColorRGBA c;
-  c.r = r;
-  c.g = g;
-  c.b = b;
-  c.a = a;
-  return c;
-}
-
-/// One marker that grows by points up to its bound.
-class Drawing {
- public:
-  Drawing(int type, const char* name, double width, const std_msgs::ColorRGBA& c, std::size_t most_points)
-      : most_points_(most_points) {
-    marker_.ns = name;
-    marker_.type = type;
-    marker_.action = Marker::ADD;
-    marker_.pose.orientation.w = 1.0;
-    marker_.scale.x = marker_.scale.y = width;
-    marker_.color = c;
-  }
-
-  void point(const Eigen::Vector2d& p) {
-    if (marker_.points.size() >= most_points_) return;
-    geometry_msgs::Point point;
-    point.x = p.x();
-    point.y = p.y();
-    marker_.points.push_back(point);
-  }
-
-  /// Both ends or none.
-  void line(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    if (marker_.points.size() + 2 > most_points_) return;
-    point(a);
-    point(b);
-  }
-
-  /// RViz warns about markers without points: one that is empty deletes what was drawn before.
-  Marker finished(const std_msgs::Header& header) && {
-    marker_.header = header;
-    if (marker_.points.empty()) marker_.action = Marker::DELETE;
-    return std::move(marker_);
-  }
-
- private:
-  Marker marker_;
-  std::size_t most_points_;
-};
-
 Drawing drawContours(const std::vector<Contour>& contours, std::size_t most_points) {
   Drawing drawing(Marker::LINE_LIST, "contours", 0.05, colour(0.9F, 0.3F, 0.1F, 1.0F), most_points);
-  for (const Contour& contour : contours) {
-    const std::size_t n = contour.polygon.size();
-    for (std::size_t i = 0; i + (contour.closed ? 0 : 1) < n; ++i) {
-      drawing.line(contour.polygon[i], contour.polygon[(i + 1) % n]);
-    }
-  }
+  for (const Contour& contour : contours) drawing.chain(contour.polygon, contour.closed);
   return drawing;
 }
 

@@ -5,6 +5,7 @@
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/PointCloud2.h>
 
+#include <Eigen/Geometry>
 #include <optional>
 #include <string>
 
@@ -26,6 +27,9 @@ struct Attitude {
   double yaw = 0.0;    // [rad]
 };
 std::optional<Attitude> attitudeOf(const geometry_msgs::Quaternion& rotation);
+
+/// nullopt if the rotation is none. What else is not finite passes.
+std::optional<Eigen::Isometry3d> spatialPose(const geometry_msgs::Pose& pose);
 
 /// nullopt if the rotation is none. Other values that are not finite pass: the odometry buffer refuses them.
 std::optional<Odometry> fromMessage(const nav_msgs::Odometry& message);

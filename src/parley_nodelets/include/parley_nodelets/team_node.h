@@ -67,6 +67,7 @@ class TeamNode {
   ros::Publisher peers_;
   ros::Publisher peer_maps_;
   ros::Publisher teammates_;
+  ros::Publisher markers_;
   tf2_ros::TransformBroadcaster transforms_;
   Radio radio_;
   Latest<parley_msgs::TrajectoryConstPtr> new_trajectory_;
