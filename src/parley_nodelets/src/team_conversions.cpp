@@ -82,9 +82,16 @@ std::string peerFrame(const std::string& odom_frame, const Teammate& teammate) {
   return prefix + "peer/" + (isFrameName(teammate.name) ? teammate.name : number) + "/odom";
 }
 
-parley_msgs::Contours toMessage(const std::vector<Contour>& contours, double stamp, const std::string& odom_frame) {
+parley_msgs::Contours toMessage(const std::vector<Contour>& contours, const std::vector<SeenThrough>& seen_through, double stamp,
+                                const std::string& odom_frame) {
   parley_msgs::Contours message;
   message.header = headerOf(stamp, odom_frame);
+  for (const SeenThrough& outline : seen_through) {
+    parley_msgs::SeenThrough& part = message.seen_through.emplace_back();
+    part.origin = outline.origin;
+    part.id = outline.id;
+    part.version = outline.version;
+  }
   for (const Contour& contour : contours) {
     parley_msgs::Contour& part = message.contours.emplace_back();
     addCorners(contour.polygon, part);
@@ -107,6 +114,26 @@ std::optional<std::vector<Contour>> fromMessage(const parley_msgs::Contours& mes
   return contours;
 }
 
+std::vector<SeenThrough> seenThroughOf(const parley_msgs::Contours& message) {
+  std::vector<SeenThrough> outlines;
+  for (const parley_msgs::SeenThrough& part : message.seen_through) outlines.push_back({part.origin, part.id, part.version});
+  return outlines;
+}
+
+parley_msgs::Contour toMessage(const Refuted& outline) {
+  parley_msgs::Contour message;
+  addCorners(outline.polygon, message);
+  message.closed = outline.closed;
+  message.stamp = toRosTime(std::max(0.0, outline.before));
+  return message;
+}
+
+std::optional<Refuted> refutedOf(const parley_msgs::Contour& message) {
+  std::optional<Polygon> polygon = cornersOf(message);
+  if (!polygon) return std::nullopt;
+  return Refuted{std::move(*polygon), message.closed != 0, message.stamp.toSec()};
+}
+
 parley_msgs::MapLayer toMessage(const LayerUpdate& layer) {
   parley_msgs::MapLayer message;
   message.origin = layer.origin;
@@ -118,6 +145,9 @@ parley_msgs::MapLayer toMessage(const LayerUpdate& layer) {
     parley_msgs::Contour& part = message.contours.emplace_back();
     addCorners(contour.polygon, part);
     part.closed = contour.closed;
+    part.stamp = toRosTime(std::max(0.0, contour.stamp));
+    part.id = contour.id;
+    part.version = contour.version;
   }
   return message;
 }
@@ -129,7 +159,8 @@ std::optional<LayerUpdate> fromMessage(const parley_msgs::MapLayer& message) {
   for (const parley_msgs::Contour& part : message.contours) {
     std::optional<Polygon> polygon = cornersOf(part);
     if (!polygon) return std::nullopt;
-    layer.contours.push_back({std::move(*polygon), part.closed != 0});
+    const double stamp = part.stamp.isZero() ? LayerContour{}.stamp : part.stamp.toSec();
+    layer.contours.push_back({std::move(*polygon), part.closed != 0, stamp, part.id, part.version});
   }
   return layer;
 }

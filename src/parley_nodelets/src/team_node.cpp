@@ -16,6 +16,7 @@ namespace parley {
 namespace {
 
 constexpr double kPeriod = 0.02;                  // [s] at which the radio is served, the control period
+constexpr double kRefutedTold = 5.0;              // [s] for which a refuted outline is part of each message
 constexpr std::size_t kMostMarkerPoints = 40000;  // per marker: what RViz draws without stutter
 
 }  // namespace
@@ -76,6 +77,7 @@ OdometrySnapshot TeamNode::readOdometry(double now) {
     team_.reset();
     plan_.clear();
     layers_.clear();
+    refuted_.clear();
     reported_bytes_ = 0;
     publishMaps(now);
   }
@@ -132,7 +134,7 @@ void TeamNode::exchangeMaps() {
     const std::optional<std::vector<Contour>> contours = fromMessage(*message);
     const bool current = continuity_.isCurrent(message->header.stamp.toSec());
     if (contours && message->header.frame_id == config_.node.frames.odom && current) {
-      team_->tellMap(*contours, now);
+      team_->tellMap(*contours, seenThroughOf(*message), now);
     } else {
       ++rejected_;
     }
@@ -141,7 +143,9 @@ void TeamNode::exchangeMaps() {
   const MapChanges changes = team_->drawMaps(odometry.buffer.latest().pose, now);
   for (const std::string& origin : changes.removed) layers_.erase(origin);
   for (const LayerUpdate& layer : changes.drawn) layers_[layer.origin] = toMessage(layer);
-  if (!changes.removed.empty() || !changes.drawn.empty()) publishMaps(now);
+  for (const Refuted& outline : changes.refuted) refuted_.push_back({now, toMessage(outline)});
+  while (!refuted_.empty() && refuted_.front().first < now - kRefutedTold) refuted_.pop_front();
+  if (!changes.removed.empty() || !changes.drawn.empty() || !changes.refuted.empty()) publishMaps(now);
   if (markers_.getNumSubscribers() == 0) return;
   markers_.publish(boost::make_shared<visualization_msgs::MarkerArray>(
       teamMarkers(drawnPeers(*team_, now), layers_, now, config_.node.frames.odom, kMostMarkerPoints)));
@@ -152,6 +156,7 @@ void TeamNode::publishMaps(double now) {
   message->header.stamp = toRosTime(now);
   message->header.frame_id = config_.node.frames.odom;
   for (const auto& [origin, layer] : layers_) message->layers.push_back(layer);
+  for (const auto& [noticed, outline] : refuted_) message->refuted.push_back(outline);
   peer_maps_.publish(message);
 }
 

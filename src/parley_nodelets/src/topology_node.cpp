@@ -119,6 +119,11 @@ void TopologyNode::takePeerMaps() {
     if (told.count(origin) == 0) topology_->removeLayer(origin);
   }
   layers_ = std::move(told);
+  for (const parley_msgs::Contour& part : message->refuted) {
+    const std::optional<Refuted> outline = refutedOf(part);
+    if (outline) topology_->forget(*outline);
+    rejected_ += outline ? 0 : 1;
+  }
 }
 
 void TopologyNode::publishLocalMap(const Pose2& T_odom_base) {
@@ -136,7 +141,8 @@ void TopologyNode::publishRoute(const Pose2& T_odom_base) {
 void TopologyNode::publishPictures() {
   const std::string& odom = config_.node.frames.odom;
   if (contours_.getNumSubscribers() > 0) {
-    contours_.publish(boost::make_shared<parley_msgs::Contours>(toMessage(topology_->contours(), *newest_scan_, odom)));
+    contours_.publish(boost::make_shared<parley_msgs::Contours>(
+        toMessage(topology_->contours(), topology_->seenThrough(), *newest_scan_, odom)));
   }
   if (graph_.getNumSubscribers() > 0) {
     graph_.publish(boost::make_shared<parley_msgs::Graph>(toMessage(topology_->graph(), *newest_scan_, odom)));

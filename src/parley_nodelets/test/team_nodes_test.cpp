@@ -189,7 +189,7 @@ TEST(TeamConversions, MessagesHoldWhatWasPutIn) {
   EXPECT_EQ(back->contours[0].polygon, layer.contours[0].polygon);
 
   const std::vector<Contour> contours{{{{0.0, 0.0}, {1.0, 0.0}}, true, false, {-3, 4}, 2}};
-  const auto told = fromMessage(toMessage(contours, 1.0, "odom"));
+  const auto told = fromMessage(toMessage(contours, {}, 1.0, "odom"));
   ASSERT_TRUE(told && told->size() == 1);
   EXPECT_EQ(told->front().tile, contours[0].tile);
   EXPECT_EQ(told->front().piece, 2);

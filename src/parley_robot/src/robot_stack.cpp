@@ -147,7 +147,7 @@ void RobotStack::updateTopology(double now, StageTimes& times) {
   const double drawing = timed([&] { drawMaps(now); });
   times.map_fusion = std::max(0.0, times.map_fusion) + drawing;
   times.topology = timed([&] { topology_.update(); });
-  if (team_ && team_->mapIsDue(now)) team_->tellMap(topology_.contours(), now);
+  if (team_ && team_->mapIsDue(now)) team_->tellMap(topology_.contours(), topology_.seenThrough(), now);
   if (!goal_.goal()) return;
   times.route = timed([&] { route_ = topology_.route(odometry_.latest().pose, *goal_.goal()); });
 }
@@ -157,6 +157,7 @@ void RobotStack::drawMaps(double now) {
   const MapChanges changes = team_->drawMaps(odometry_.latest().pose, now);
   for (const std::string& origin : changes.removed) topology_.removeLayer(origin);
   for (const LayerUpdate& layer : changes.drawn) topology_.setLayer(layer);
+  for (const Refuted& outline : changes.refuted) topology_.forget(outline);
 }
 
 void RobotStack::planMotion(double now, StageTimes& times) {

@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace parley {
 namespace {
@@ -15,6 +16,7 @@ constexpr double kHardStays = 0.2;        // [m] and stay so up to here
 constexpr double kSoftSigma = 0.6;        // [m] outlines less certain than this are of no use
 constexpr double kMovedBy = 0.05;         // [m] of outlines some metres off: they are drawn anew
 constexpr double kMovedYaw = 0.01;        // [rad]
+constexpr double kStillSeen = 5.0;        // [s] what own sensing has seen since stays when somebody else sees through it
 constexpr double kFreshBeacon = 0.5;      // [s] a body is where its last beacon, younger than this, says
 constexpr double kBodyMargin = 0.05;      // [m] beyond the pose's deviation
 
@@ -161,13 +163,26 @@ void TeamLink::locate(double now) {
 
 bool TeamLink::mapIsDue(double now) const { return share_maps_ && now >= told_map_at_ + kMapPeriod; }
 
-void TeamLink::tellMap(const std::vector<Contour>& contours, double now) {
+void TeamLink::tellMap(const std::vector<Contour>& contours, const std::vector<SeenThrough>& seen_through, double now) {
   if (!mapIsDue(now)) return;
   told_map_at_ = now;
+  told_contours_.clear();
   std::vector<OwnContour> own;
   own.reserve(contours.size());
-  for (const Contour& c : contours) own.push_back({keyOf(c), c.polygon, c.closed, c.hole, now});
+  for (const Contour& c : contours) {
+    own.push_back({keyOf(c), c.polygon, c.closed, c.hole, now});
+    told_contours_.emplace(keyOf(c), c);
+  }
   exchange_.publishContours(own, now);
+  contest(seen_through, now);
+}
+
+void TeamLink::contest(const std::vector<SeenThrough>& seen_through, double now) {
+  for (const SeenThrough& outline : seen_through) {
+    for (const auto& [id, teammate] : teammates_) {
+      if (nameOf(id) == outline.origin) exchange_.contest({id, outline.id, outline.version}, now);
+    }
+  }
 }
 
 /// How an origin's outlines can be used, if at all, by how well they are known where this robot is.
@@ -180,16 +195,27 @@ std::optional<bool> TeamLink::hardness(const Teammate& teammate, const Pose2& T_
   return state == PoseState::kConfirmed && sigma < (was_hard ? kHardStays : kHardSigma);
 }
 
-std::vector<LayerContour> TeamLink::contoursOf(RobotId origin) const {
+/// An origin's outlines where its frame is believed to be, without those that are contested: these are noted.
+LayerUpdate TeamLink::layerOf(RobotId origin, double now) {
+  Drawn& drawn = drawn_[origin];
+  LayerUpdate layer{nameOf(origin), 7, now, drawn.T_odom_peer, drawn.hard, {}};
   std::map<std::uint32_t, Pose2> anchors;
   for (const SharedAnchor& anchor : exchange_.anchorsOf(origin)) anchors[anchor.id] = anchor.pose;
-  std::vector<LayerContour> contours;
+  std::set<ContourVersion> contested;
   for (const SharedContour& contour : exchange_.contoursOf(origin)) {
     const auto anchor = anchors.find(contour.anchor);
-    if (contour.contested || anchor == anchors.end()) continue;
-    contours.push_back({transformed(anchor->second, contour.polygon), contour.closed});
+    if (anchor == anchors.end()) continue;
+    const Polygon polygon = transformed(anchor->second, contour.polygon);
+    const ContourName& name = contour.name;
+    if (!contour.contested) {
+      layer.contours.push_back({polygon, contour.closed, contour.confirmed, name.id, name.sequence});
+      layer.hops = std::min(layer.hops, std::max(1, contour.hops));
+    } else if (contested.emplace(name.id, name.sequence); drawn.hard && !drawn.contested.count({name.id, name.sequence})) {
+      refuted_.push_back({transformed(drawn.T_odom_peer, polygon), contour.closed, now - kStillSeen});
+    }
   }
-  return contours;
+  drawn.contested = std::move(contested);
+  return layer;
 }
 
 MapChanges TeamLink::drawMaps(const Pose2& T_odom_base, double now) {
@@ -209,9 +235,10 @@ MapChanges TeamLink::drawMaps(const Pose2& T_odom_base, double now) {
     const int revision = exchange_.mapRevision(id);
     if (revision == drawn.revision && *hard == drawn.hard && !moved) continue;
     if (drawn.revision >= 0 && now < drawn.at + kMapPeriod) continue;
-    drawn = {revision, T, *hard, now};
-    changes.drawn.push_back({nameOf(id), 1, now, T, *hard, contoursOf(id)});
+    drawn = {revision, T, *hard, now, std::move(drawn.contested)};
+    changes.drawn.push_back(layerOf(id, now));
   }
+  changes.refuted = std::exchange(refuted_, {});
   return changes;
 }
 
@@ -237,6 +264,10 @@ std::vector<Packet> TeamLink::step(double now, const Odometry& odometry, const S
   exchange_.setTrajectory(trajectory.empty() ? SampledTrajectory::standing(odometry.pose, now) : trajectory, state);
   ExchangeOutput output = exchange_.step(now);
   for (const ExchangeEvent& event : output.events) {
+    if (event.kind == ExchangeEventKind::kContourContested) {
+      const auto told = told_contours_.find(event.contour);
+      if (told != told_contours_.end()) refuted_.push_back({told->second.polygon, told->second.closed, now - kStillSeen});
+    }
     if (event.kind != ExchangeEventKind::kPeerRestarted) continue;
     localization_.forget(nameOf(event.robot));
     heard_.erase(event.robot);

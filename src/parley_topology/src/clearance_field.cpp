@@ -6,6 +6,9 @@
 namespace parley {
 namespace {
 
+constexpr double kSameThing = 0.3;  // [m] outlines this near to own ones are theirs, with the pose's error
+constexpr int kNewer = 2;           // [s] by which an outline must be newer than the look it overrules
+
 CellRect changedRect(const Tile& tile) {
   CellRect rect{kTileSize, kTileSize, 0, 0};
   for (int block = 0; block < 16; ++block) {
@@ -39,14 +42,14 @@ std::vector<CellRect> joined(const std::vector<CellRect>& rects, int halo) {
 }
 
 /// A picture of a window: value(tile, offset) of every cell, `nothing` where there is no tile.
-template <class Value>
-cv::Mat1b picture(const TiledMap& map, const CellRect& rect, std::uint8_t nothing, const Value& value) {
-  cv::Mat1b image(rect.height(), rect.width(), nothing);
+template <class Pixel, class Value>
+cv::Mat_<Pixel> picture(const TiledMap& map, const CellRect& rect, Pixel nothing, const Value& value) {
+  cv::Mat_<Pixel> image(rect.height(), rect.width(), nothing);
   forEachTile(rect, [&](int tx, int ty, const CellRect& part) {
     const Tile* tile = map.find(tx, ty);
     if (!tile) return;
     for (int y = part.y0; y < part.y1; ++y) {
-      std::uint8_t* out = image.ptr(y - rect.y0) + (part.x0 - rect.x0);
+      Pixel* out = image[y - rect.y0] + (part.x0 - rect.x0);
       const std::size_t first = offsetOf(part.x0, y);
       for (std::size_t i = 0; i < static_cast<std::size_t>(part.width()); ++i) out[i] = value(*tile, first + i);
     }
@@ -67,15 +70,40 @@ void setBit(std::uint8_t& flags, std::uint8_t bit, bool on) {
   flags = static_cast<std::uint8_t>(on ? flags | bit : flags & ~bit);
 }
 
-/// Own sensing where it has looked and up to the layer distance around, layers beyond.
+/// When own sensing last looked at or right beside each cell of a window, in the map's seconds; 0 where it has not seen.
+cv::Mat1w timesLooked(const TiledMap& map, const CellRect& rect, int gap) {
+  const CellRect around = rect.grown(gap);
+  const auto seen = [](const Tile& tile, std::size_t i) -> std::uint16_t {
+    return tile.flags[i] & kSeen ? std::max<std::uint16_t>(1, tile.looked[i]) : std::uint16_t{0};
+  };
+  cv::Mat1w looked = picture<std::uint16_t>(map, around, 0, seen);
+  cv::dilate(looked, looked, cv::Mat(), cv::Point(-1, -1), gap);
+  return looked(cv::Rect(gap, gap, rect.width(), rect.height()));
+}
+
+/// Where something of own sensing is so near that a layer's outline may mean the same thing.
+cv::Mat1b nearOwn(const TiledMap& map, const CellRect& rect) {
+  const int reach = static_cast<int>(std::lround(kSameThing / map.resolution()));
+  const auto own = [](const Tile& tile, std::size_t i) -> std::uint8_t { return tile.flags[i] & kOwn ? 255 : 0; };
+  cv::Mat1b near = picture<std::uint8_t>(map, rect.grown(reach), 0, own);
+  cv::dilate(near, near, cv::Mat(), cv::Point(-1, -1), reach);
+  return near(cv::Rect(reach, reach, rect.width(), rect.height()));
+}
+
+/// Own sensing where it has looked and up to the layer distance around, layers beyond. Where it saw nothing, now or near by,
+/// an outline that was told later has the word.
 void fuse(TiledMap& map, const CellRect& rect, const FieldShape& shape) {
-  const int gap = static_cast<int>(std::lround(shape.layer_distance / map.resolution()));
-  cv::Mat1b near_seen;
+  cv::Mat1w looked;
+  cv::Mat1b near_own;
   if (hasLayers(map, rect)) {
-    const auto seen = [](const Tile& tile, std::size_t i) -> std::uint8_t { return tile.flags[i] & kSeen ? 255 : 0; };
-    near_seen = picture(map, rect.grown(gap), 0, seen);
-    cv::dilate(near_seen, near_seen, cv::Mat(), cv::Point(-1, -1), gap);
+    looked = timesLooked(map, rect, static_cast<int>(std::lround(shape.layer_distance / map.resolution())));
+    near_own = nearOwn(map, rect);
   }
+  const auto ownWord = [&](const Tile& tile, std::size_t i, int row, int column) {
+    if (!tile.layers) return true;
+    if (looked(row, column) == 0) return false;
+    return near_own(row, column) || tile.layers->told[i] <= looked(row, column) + kNewer;
+  };
   forEachTile(rect, [&](int tx, int ty, const CellRect& part) {
     Tile* tile = map.find(tx, ty);
     if (!tile) return;
@@ -83,7 +111,7 @@ void fuse(TiledMap& map, const CellRect& rect, const FieldShape& shape) {
       for (int x = part.x0; x < part.x1; ++x) {
         const std::size_t i = offsetOf(x, y);
         std::uint8_t& flags = tile->flags[i];
-        const bool own_word = !tile->layers || near_seen(y - rect.y0 + gap, x - rect.x0 + gap);
+        const bool own_word = ownWord(*tile, i, y - rect.y0, x - rect.x0);
         setBit(flags, kFused, (flags & kOwn) || (!own_word && tile->layers->hard[i] > 0));
         setBit(flags, kTentative, !own_word && tile->layers->soft[i] > 0);
       }
@@ -101,7 +129,7 @@ FieldImage measure(const TiledMap& map, const CellRect& rect, const FieldShape& 
   const double per_cell = kFarAway * map.resolution() / shape.reach;
   const int halo = static_cast<int>(std::ceil(shape.reach / map.resolution())) + 1;
   const auto is_free = [](const Tile& tile, std::size_t i) -> std::uint8_t { return tile.flags[i] & kFused ? 0 : 255; };
-  const cv::Mat1b source = picture(map, rect.grown(halo + 1), 255, is_free);
+  const cv::Mat1b source = picture<std::uint8_t>(map, rect.grown(halo + 1), 255, is_free);
   cv::Mat1f cells;
   cv::distanceTransform(source, cells, cv::DIST_L2, cv::DIST_MASK_5, CV_32F);
 

@@ -29,13 +29,20 @@ bool hasMarks(const ScanImage& image, const CellRect& part) {
   return false;
 }
 
-void addToTile(Tile& tile, const ScanImage& image, const CellRect& part, const Voting& voting) {
+/// A cell that a layer holds occupied has just been looked through: the layer's word is no longer the newest.
+bool overrules(const Tile& tile, std::size_t i, std::uint8_t mark) {
+  return tile.layers && mark == kClear && (tile.flags[i] & (kFused | kOwn)) == kFused;
+}
+
+void addToTile(Tile& tile, const ScanImage& image, const CellRect& part, std::uint16_t second, const Voting& voting) {
   for (int y = part.y0; y < part.y1; ++y) {
     const std::uint8_t* row = image.marks.ptr(y - image.rect.y0) - image.rect.x0;
     for (int x = part.x0; x < part.x1; ++x) {
       const std::uint8_t mark = row[x];
       if (mark == kNothing || mark == kKeep) continue;
       const std::size_t i = offsetOf(x, y);
+      tile.looked[i] = second;
+      if (overrules(tile, i, mark)) tile.changed_cells = static_cast<std::uint16_t>(tile.changed_cells | blockBit(x, y));
       const int before{tile.evidence[i]};
       const int after = voting.vote(before, mark);
       if (after == before) continue;
@@ -53,15 +60,16 @@ void addToTile(Tile& tile, const ScanImage& image, const CellRect& part, const V
 
 }  // namespace
 
-void addEvidence(TiledMap& map, const ScanImage& image, const TopologyOptions& options) {
+void addEvidence(TiledMap& map, const ScanImage& image, double stamp, const TopologyOptions& options) {
+  const std::uint16_t second = map.secondsOf(stamp);
   const Voting voting{options.hit_weight, options.clear_weight, options.evidence_limit, options.occupied_above,
                       options.free_below};
   forEachTile(image.rect, [&](int tx, int ty, const CellRect& part) {
     Tile* tile = map.find(tx, ty);
     if (!tile && hasMarks(image, part)) tile = map.ensure(tx, ty);
     if (!tile) return;
-    addToTile(*tile, image, part, voting);
-    if (tile->changed_seen) map.note(*tile);
+    addToTile(*tile, image, part, second, voting);
+    if (tile->changed_seen | tile->changed_cells) map.note(*tile);
   });
 }
 

@@ -8,7 +8,7 @@
 namespace parley {
 
 /// Votes cells in and out: adds what a scan says to each cell's evidence, and changes what the cell is held to be where
-/// the evidence passes its thresholds. Notes the blocks that changed.
-void addEvidence(TiledMap& map, const ScanImage& image, const TopologyOptions& options);
+/// the evidence passes its thresholds. Notes the blocks that changed. `stamp` [s] is the scan's.
+void addEvidence(TiledMap& map, const ScanImage& image, double stamp, const TopologyOptions& options);
 
 }  // namespace parley

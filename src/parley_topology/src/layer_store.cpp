@@ -14,58 +14,75 @@ std::uint64_t keyOf(int x, int y) {
 int xOf(std::uint64_t key) { return static_cast<int>(static_cast<std::int64_t>(key & 0xffffffffU) - kOffset); }
 int yOf(std::uint64_t key) { return static_cast<int>(static_cast<std::int64_t>(key >> 32) - kOffset); }
 
-void sortUnique(std::vector<std::uint64_t>& keys) {
-  std::sort(keys.begin(), keys.end());
-  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+void sortUnique(std::vector<LayerCell>& cells) {
+  std::sort(cells.begin(), cells.end());
+  const auto same = [](const LayerCell& a, const LayerCell& b) { return a.key == b.key; };
+  cells.erase(std::unique(cells.begin(), cells.end(), same), cells.end());
 }
 
 /// Leaves out cells whose tile cannot be had.
-void keepMapped(TiledMap& map, std::vector<std::uint64_t>& keys) {
-  const auto homeless = [&map](std::uint64_t key) { return !map.ensure(tileOf(xOf(key)), tileOf(yOf(key))); };
-  keys.erase(std::remove_if(keys.begin(), keys.end(), homeless), keys.end());
+void keepMapped(TiledMap& map, std::vector<LayerCell>& cells) {
+  const auto homeless = [&map](const LayerCell& c) { return !map.ensure(tileOf(xOf(c.key)), tileOf(yOf(c.key))); };
+  cells.erase(std::remove_if(cells.begin(), cells.end(), homeless), cells.end());
 }
 
-/// Adds `step` to the layer counts of cells, all of which have a tile. A count stays below 256 because the number of layers is
-/// bounded.
-void addToCounts(TiledMap& map, const std::vector<std::uint64_t>& cells, bool hard, int step) {
-  for (const std::uint64_t key : cells) {
-    const int x = xOf(key), y = yOf(key);
-    Tile* tile = map.find(tileOf(x), tileOf(y));
-    if (!tile->layers) tile->layers = std::make_unique<LayerCounts>();
-    std::uint8_t& count = (hard ? tile->layers->hard : tile->layers->soft)[offsetOf(x, y)];
-    count = static_cast<std::uint8_t>(count + step);
-    const std::uint16_t block = blockBit(x, y);
-    tile->changed_cells = static_cast<std::uint16_t>(tile->changed_cells | block);
-    tile->changed_seen = static_cast<std::uint16_t>(tile->changed_seen | block);
-    map.note(*tile);
+/// Changes the counts of a cell, which has a tile, and notes its block. A count stays below 256 because the number of layers
+/// is bounded.
+template <class Change>
+void change(TiledMap& map, std::uint64_t key, const Change& apply) {
+  const int x = xOf(key), y = yOf(key);
+  Tile* tile = map.find(tileOf(x), tileOf(y));
+  if (!tile->layers) tile->layers = std::make_unique<LayerCounts>();
+  apply(*tile->layers, offsetOf(x, y));
+  const std::uint16_t block = blockBit(x, y);
+  tile->changed_cells = static_cast<std::uint16_t>(tile->changed_cells | block);
+  tile->changed_seen = static_cast<std::uint16_t>(tile->changed_seen | block);
+  map.note(*tile);
+}
+
+void putIn(TiledMap& map, const std::vector<LayerCell>& cells, bool hard) {
+  for (const LayerCell& cell : cells) {
+    change(map, cell.key, [&](LayerCounts& counts, std::size_t i) {
+      ++(hard ? counts.hard : counts.soft)[i];
+      if (hard) counts.told[i] = std::max(counts.told[i], cell.told);
+    });
   }
 }
 
 /// What is in `a` and not in `b`, both sorted.
-std::vector<std::uint64_t> difference(const std::vector<std::uint64_t>& a, const std::vector<std::uint64_t>& b) {
-  std::vector<std::uint64_t> only;
+std::vector<LayerCell> difference(const std::vector<LayerCell>& a, const std::vector<LayerCell>& b) {
+  std::vector<LayerCell> only;
   std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(only));
   return only;
 }
 
+const LayerCell* find(const std::vector<LayerCell>& cells, std::uint64_t key) {
+  const auto place =
+      std::lower_bound(cells.begin(), cells.end(), key, [](const LayerCell& c, std::uint64_t k) { return c.key < k; });
+  return place != cells.end() && place->key == key ? &*place : nullptr;
+}
+
 bool sameOutlines(const LayerUpdate& a, const LayerUpdate& b) {
-  const auto same = [](const LayerContour& c, const LayerContour& d) { return c.closed == d.closed && c.polygon == d.polygon; };
+  const auto same = [](const LayerContour& c, const LayerContour& d) {
+    return c.closed == d.closed && c.stamp == d.stamp && c.polygon == d.polygon && c.id == d.id && c.version == d.version;
+  };
   return a.T_odom_peer == b.T_odom_peer && a.obstacle == b.obstacle &&
          std::equal(a.contours.begin(), a.contours.end(), b.contours.begin(), b.contours.end(), same);
 }
 
 }  // namespace
 
-std::vector<std::uint64_t> LayerStore::draw(const TiledMap& map, const LayerUpdate& layer) {
+std::vector<LayerCell> LayerStore::draw(TiledMap& map, const LayerUpdate& layer) {
   const double step = 0.5 * map.resolution();
   const int spread = layer.obstacle ? 0 : static_cast<int>(std::ceil(reach_ / map.resolution()));
   const auto limit = static_cast<std::size_t>(options_.max_layer_cells);
-  std::vector<std::uint64_t> keys;
+  std::vector<LayerCell> keys;
+  std::uint16_t told = 0;
   const auto stamp = [&](const Eigen::Vector2d& p) {
     const int cx = map.cellOf(p.x()), cy = map.cellOf(p.y());
     for (int dy = -spread; dy <= spread; ++dy) {
       for (int dx = -spread; dx <= spread; ++dx) {
-        if (dx * dx + dy * dy <= spread * spread) keys.push_back(keyOf(cx + dx, cy + dy));
+        if (dx * dx + dy * dy <= spread * spread) keys.push_back({keyOf(cx + dx, cy + dy), told});
       }
     }
     if (keys.size() > 2 * limit) sortUnique(keys);
@@ -74,6 +91,7 @@ std::vector<std::uint64_t> LayerStore::draw(const TiledMap& map, const LayerUpda
   saturated_ = saturated_ || contours < layer.contours.size();
   for (std::size_t c = 0; c < contours; ++c) {
     const Polygon polygon = transformed(layer.T_odom_peer, layer.contours[c].polygon);
+    told = map.secondsOf(layer.contours[c].stamp);
     const bool usable = std::none_of(polygon.begin(), polygon.end(), [&](const auto& p) { return map.isOutside(p); });
     const std::size_t segments = polygon.size() < 2 || layer.contours[c].closed ? polygon.size() : polygon.size() - 1;
     for (std::size_t i = 0; usable && i < segments && keys.size() <= 2 * limit; ++i) {
@@ -107,23 +125,44 @@ bool LayerStore::set(TiledMap& map, const LayerUpdate& layer) {
       held != layers_.end() && held->second.update.obstacle == layer.obstacle && held->second.provenance.hops == layer.hops;
   if (!comparable) {
     remove(map, layer.origin);
-    addToCounts(map, drawn.cells, layer.obstacle, 1);
+    putIn(map, drawn.cells, layer.obstacle);
     layers_.emplace(layer.origin, std::move(drawn));
     return true;
   }
-  const std::vector<std::uint64_t>& before = held->second.cells;
-  addToCounts(map, difference(before, drawn.cells), layer.obstacle, -1);
-  addToCounts(map, difference(drawn.cells, before), layer.obstacle, 1);
+  takeOut(map, difference(held->second.cells, drawn.cells), held->second);
+  putIn(map, difference(drawn.cells, held->second.cells), layer.obstacle);
   held->second = std::move(drawn);
   return true;
+}
+
+/// Takes cells of a held layer out of the counts; what is left in them is as the other layers have it.
+void LayerStore::takeOut(TiledMap& map, const std::vector<LayerCell>& cells, const Layer& layer) {
+  const bool hard = layer.update.obstacle;
+  for (const LayerCell& cell : cells) {
+    change(map, cell.key, [&](LayerCounts& counts, std::size_t i) {
+      --(hard ? counts.hard : counts.soft)[i];
+      if (!hard) return;
+      counts.told[i] = 0;
+      for (const auto& [origin, other] : layers_) {
+        if (&other == &layer || !other.update.obstacle) continue;
+        if (const LayerCell* left = find(other.cells, cell.key)) counts.told[i] = std::max(counts.told[i], left->told);
+      }
+    });
+  }
 }
 
 bool LayerStore::remove(TiledMap& map, const std::string& origin) {
   const auto held = layers_.find(origin);
   if (held == layers_.end()) return false;
-  addToCounts(map, held->second.cells, held->second.update.obstacle, -1);
+  takeOut(map, held->second.cells, held->second);
   layers_.erase(held);
   return true;
+}
+
+std::vector<const LayerUpdate*> LayerStore::updates() const {
+  std::vector<const LayerUpdate*> updates;
+  for (const auto& [origin, layer] : layers_) updates.push_back(&layer.update);
+  return updates;
 }
 
 const Provenance* LayerStore::ownerOf(int x, int y) const {
@@ -131,7 +170,7 @@ const Provenance* LayerStore::ownerOf(int x, int y) const {
   const std::uint64_t key = keyOf(x, y);
   for (const auto& [origin, layer] : layers_) {
     if (!layer.update.obstacle || (owner && owner->hops <= layer.provenance.hops)) continue;
-    if (std::binary_search(layer.cells.begin(), layer.cells.end(), key)) owner = &layer.provenance;
+    if (find(layer.cells, key)) owner = &layer.provenance;
   }
   return owner;
 }

@@ -12,6 +12,16 @@
 
 namespace parley {
 
+/// A cell that a layer covers.
+struct LayerCell {
+  std::uint64_t key = 0;
+  std::uint16_t told = 0;  // [s] of the map's clock
+
+  bool operator==(const LayerCell& o) const { return key == o.key && told == o.told; }
+  /// Of the entries of one cell the newest comes first.
+  bool operator<(const LayerCell& o) const { return key != o.key ? key < o.key : told > o.told; }
+};
+
 /// Peers' outlines, one layer per origin, drawn into the map's counts of covering layers and taken out again exactly.
 class LayerStore {
  public:
@@ -25,6 +35,8 @@ class LayerStore {
 
   int count() const { return static_cast<int>(layers_.size()); }
   bool saturated() const { return saturated_; }
+  /// All layers that are held.
+  std::vector<const LayerUpdate*> updates() const;
   /// The least indirect layer that holds a cell occupied; nullptr if none does.
   const Provenance* ownerOf(int x, int y) const;
   void clear() { *this = LayerStore(options_, reach_); }
@@ -33,10 +45,11 @@ class LayerStore {
   struct Layer {
     LayerUpdate update;
     Provenance provenance;
-    std::vector<std::uint64_t> cells;  // sorted keys of the cells it covers
+    std::vector<LayerCell> cells;  // by key, each once
   };
 
-  std::vector<std::uint64_t> draw(const TiledMap& map, const LayerUpdate& layer);
+  std::vector<LayerCell> draw(TiledMap& map, const LayerUpdate& layer);
+  void takeOut(TiledMap& map, const std::vector<LayerCell>& cells, const Layer& layer);
 
   TopologyOptions options_;
   double reach_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tiled_map.h"
 
+#include <limits>
+
 namespace parley {
 
 bool operator==(const Chain& a, const Chain& b) {
@@ -38,6 +40,13 @@ Tile* TiledMap::ensure(int tx, int ty) {
   return place;
 }
 
+std::uint16_t TiledMap::secondsOf(double stamp) {
+  constexpr double kBefore = 3600.0;  // [s]
+  if (!(stamp > std::numeric_limits<double>::lowest())) return 0;
+  if (!epoch_) epoch_ = stamp - kBefore;
+  return static_cast<std::uint16_t>(std::clamp(stamp - *epoch_, 0.0, 65535.0));
+}
+
 void TiledMap::forgetChanges() {
   for (Tile* tile : changed_) {
     tile->changed_cells = tile->changed_seen = tile->changed_field = tile->changed_passable = 0;
@@ -51,6 +60,7 @@ void TiledMap::clear() {
   tiles_.clear();
   std::fill(directory_.begin(), directory_.end(), nullptr);
   saturated_ = false;
+  epoch_.reset();
 }
 
 }  // namespace parley

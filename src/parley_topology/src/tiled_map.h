@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "parley_topology/visibility_graph.h"
@@ -68,6 +69,7 @@ bool operator==(const Chain& a, const Chain& b);
 struct LayerCounts {
   std::array<std::uint8_t, kTileCells> hard{};
   std::array<std::uint8_t, kTileCells> soft{};
+  std::array<std::uint16_t, kTileCells> told{};  // [s] of the map's clock, when the newest hard one was told
 };
 
 /// An entry of a list of vertex pairs; void once the pair's version has moved on.
@@ -99,6 +101,7 @@ struct Tile {
   std::array<std::int8_t, kTileCells> evidence{};
   std::array<std::uint8_t, kTileCells> flags{};
   std::array<std::uint8_t, kTileCells> distance{};  // to what is fused occupied, kFarAway is the field's reach
+  std::array<std::uint16_t, kTileCells> looked{};   // [s] of the map's clock, when own sensing last said something; 0 is never
   std::unique_ptr<LayerCounts> layers;
   std::uint16_t changed_cells = 0;     // what is occupied, or seen with layers about: the field has to be worked out again
   std::uint16_t changed_seen = 0;      // what is seen or tentative: measures of edges across it
@@ -148,6 +151,10 @@ class TiledMap {
     return tile ? tile->distance[offsetOf(x, y)] : kFarAway;
   }
 
+  /// Seconds of a clock that began an hour before the first stamp asked for; 0 for what is older, and after 18 hours it
+  /// stands still.
+  std::uint16_t secondsOf(double stamp);
+
   /// Puts a tile on the list of changed ones, whose `changed_` masks are looked at in the next update.
   void note(Tile& tile) {
     if (!tile.noted) changed_.push_back(&tile);
@@ -172,6 +179,7 @@ class TiledMap {
   unsigned side_;
   std::size_t max_tiles_;
   bool saturated_ = false;
+  std::optional<double> epoch_;  // [s] when the map's clock began
   std::vector<Tile*> directory_;
   std::vector<std::unique_ptr<Tile>> tiles_;
   std::vector<Tile*> changed_;

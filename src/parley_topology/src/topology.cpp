@@ -6,6 +6,7 @@
 #include "evidence.h"
 #include "graph_builder.h"
 #include "map_outlines.h"
+#include "outline_checks.h"
 #include "route_keeper.h"
 
 namespace parley {
@@ -70,7 +71,8 @@ void Topology::integrate(const ObstacleScan& scan, const Pose2& T_odom_base) {
     ++p.refused;
     return;
   }
-  addEvidence(p.map, drawScan(scan, T_odom_base, p.footprint, p.options.clear_margin, p.options.resolution), p.options);
+  addEvidence(p.map, drawScan(scan, T_odom_base, p.footprint, p.options.clear_margin, p.options.resolution), scan.stamp,
+              p.options);
 }
 
 void Topology::setLayer(const LayerUpdate& layer) {
@@ -78,6 +80,20 @@ void Topology::setLayer(const LayerUpdate& layer) {
 }
 
 void Topology::removeLayer(const std::string& origin) { parts_->layers.remove(parts_->map, origin); }
+
+std::vector<SeenThrough> Topology::seenThrough() const {
+  Parts& p = *parts_;
+  std::vector<SeenThrough> found;
+  for (const LayerUpdate* layer : p.layers.updates()) {
+    for (const LayerContour& contour : layer->contours) {
+      if (!layer->obstacle || !isSeenThrough(p.map, p.shape, layer->T_odom_peer, contour)) continue;
+      found.push_back({layer->origin, contour.id, contour.version});
+    }
+  }
+  return found;
+}
+
+void Topology::forget(const Refuted& outline) { forgetAlong(parts_->map, outline); }
 
 TopologyResult Topology::update() {
   Parts& p = *parts_;

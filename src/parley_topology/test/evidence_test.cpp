@@ -13,7 +13,7 @@ namespace {
 class Mapping {
  public:
   void add(const ObstacleScan& scan, const Pose2& pose) {
-    addEvidence(map, drawScan(scan, pose, testFootprint(), options.clear_margin, options.resolution), options);
+    addEvidence(map, drawScan(scan, pose, testFootprint(), options.clear_margin, options.resolution), scan.stamp, options);
   }
   bool isOccupied(double x, double y) const { return at(x, y) & kOwn; }
   bool isFree(double x, double y) const { return (at(x, y) & kSeen) && !(at(x, y) & kOwn); }

@@ -20,7 +20,9 @@ namespace parley {
 /// that would not do as part of a frame's, or is not known, gives way to the number.
 std::string peerFrame(const std::string& odom_frame, const Teammate& teammate);
 
-parley_msgs::Contours toMessage(const std::vector<Contour>& contours, double stamp, const std::string& odom_frame);
+parley_msgs::Contours toMessage(const std::vector<Contour>& contours, const std::vector<SeenThrough>& seen_through, double stamp,
+                                const std::string& odom_frame);
+parley_msgs::Contour toMessage(const Refuted& outline);
 parley_msgs::MapLayer toMessage(const LayerUpdate& layer);
 parley_msgs::Teammates toMessage(const std::vector<KnownTeammate>& bodies, double stamp, const std::string& odom_frame);
 /// All that a robot knows of its team.
@@ -28,6 +30,8 @@ parley_msgs::PeerArray peersOf(const TeamLink& team, double now, const std::stri
 
 /// From messages: nullopt if something is not finite, no rotation, without size or without an origin.
 std::optional<std::vector<Contour>> fromMessage(const parley_msgs::Contours& message);
+std::vector<SeenThrough> seenThroughOf(const parley_msgs::Contours& message);
+std::optional<Refuted> refutedOf(const parley_msgs::Contour& message);
 std::optional<LayerUpdate> fromMessage(const parley_msgs::MapLayer& message);
 std::optional<std::vector<KnownTeammate>> fromMessage(const parley_msgs::Teammates& message);
 

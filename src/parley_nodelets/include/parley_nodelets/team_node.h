@@ -9,6 +9,7 @@
 #include <parley_msgs/Trajectory.h>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include <deque>
 #include <map>
 #include <optional>
 #include <string>
@@ -58,11 +59,12 @@ class TeamNode {
   CommittedPlan plan_;
   Continuity continuity_;
   DriveState state_ = DriveState::kStopped;
-  std::map<std::string, parley_msgs::MapLayer> layers_;  // by origin, as published
-  bool teammates_told_ = false;                          // the last message named some
-  int rejected_ = 0;                                     // [-] messages that were not usable
-  double reported_at_ = 0.0;                             // [s] and
-  std::int64_t reported_bytes_ = 0;                      // [byte] at the last report
+  std::map<std::string, parley_msgs::MapLayer> layers_;          // by origin, as published
+  std::deque<std::pair<double, parley_msgs::Contour>> refuted_;  // when they were noticed [s], as published
+  bool teammates_told_ = false;                                  // the last message named some
+  int rejected_ = 0;                                             // [-] messages that were not usable
+  double reported_at_ = 0.0;                                     // [s] and
+  std::int64_t reported_bytes_ = 0;                              // [byte] at the last report
 
   ros::Publisher peers_;
   ros::Publisher peer_maps_;

@@ -26,6 +26,7 @@ struct Teammate {
 struct MapChanges {
   std::vector<LayerUpdate> drawn;
   std::vector<std::string> removed;  // origins
+  std::vector<Refuted> refuted;      // outlines that somebody saw through: what own sensing held there may be gone
 };
 
 /// What the team knows, and what it is told: couples the radio with relative localization, and both with the map. Times are
@@ -44,8 +45,8 @@ class TeamLink {
 
   /// Whether it is time to tell the map again.
   bool mapIsDue(double now) const;
-  /// Tells what own sensing knows of obstacles.
-  void tellMap(const std::vector<Contour>& contours, double now);
+  /// Tells what own sensing knows of obstacles, and which of others' outlines it has seen through.
+  void tellMap(const std::vector<Contour>& contours, const std::vector<SeenThrough>& seen_through, double now);
   /// What others know, to be laid over the map where their frames are known well enough, and what is no longer known, to be
   /// taken away. Each change is said once.
   MapChanges drawMaps(const Pose2& T_odom_base, double now);
@@ -61,6 +62,8 @@ class TeamLink {
   RelativeLocalizationCounters localizationCounters() const { return localization_.counters(); }
 
  private:
+  using ContourVersion = std::pair<std::uint32_t, std::uint32_t>;  // id and sequence
+
   /// What of a peer has been passed on to relative localization.
   struct Heard {
     double motion = -1e9;             // [s] stamps of the newest ones
@@ -73,6 +76,7 @@ class TeamLink {
     Pose2 T_odom_peer;
     bool hard = false;
     double at = -1e9;  // [s]
+    std::set<ContourVersion> contested;
   };
   struct AnchorPlace {
     Pose2 pose;           // T_odom_anchor, odom frame of its origin
@@ -84,7 +88,8 @@ class TeamLink {
   double travelOf(RobotId origin, const Pose2& T_odom_base) const;
   std::optional<AnchorPlace> anchorPlace(RobotId origin, std::uint32_t id) const;
   std::optional<bool> hardness(const Teammate& teammate, const Pose2& T_odom_base, bool was_hard) const;
-  std::vector<LayerContour> contoursOf(RobotId origin) const;
+  LayerUpdate layerOf(RobotId origin, double now);
+  void contest(const std::vector<SeenThrough>& seen_through, double now);
 
   bool share_maps_;
   Exchange exchange_;
@@ -93,10 +98,12 @@ class TeamLink {
   std::map<RobotId, Heard> heard_;
   std::map<std::pair<RobotId, RobotId>, double> edges_;  // [s] when those passed on were written
   std::map<RobotId, Drawn> drawn_;
-  std::set<RobotId> told_poses_;                  // whose pose has been given to the exchange
-  std::optional<Eigen::Vector2d> told_keyframe_;  // [m] where the last one was
-  double told_sights_ = -1e9;                     // [s]
-  double told_map_at_ = -1e9;                     // [s]
+  std::map<std::int64_t, Contour> told_contours_;  // by key
+  std::vector<Refuted> refuted_;                   // since maps were drawn last
+  std::set<RobotId> told_poses_;                   // whose pose has been given to the exchange
+  std::optional<Eigen::Vector2d> told_keyframe_;   // [m] where the last one was
+  double told_sights_ = -1e9;                      // [s]
+  double told_map_at_ = -1e9;                      // [s]
 };
 
 }  // namespace parley

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,23 @@ struct Contour {
 struct LayerContour {
   Polygon polygon;  // [m]
   bool closed = false;
+  double stamp = std::numeric_limits<double>::lowest();  // [s] when it was last stood by, this robot's clock; lowest: nobody said
+  std::uint32_t id = 0;                                  // [-] with its version a name at its origin
+  std::uint32_t version = 0;                             // [-]
+};
+
+/// Names an outline of a layer that own sensing has seen through since it was told.
+struct SeenThrough {
+  std::string origin;
+  std::uint32_t id = 0;       // [-]
+  std::uint32_t version = 0;  // [-]
+};
+
+/// An outline, in the odom frame, that is known to be wrong for what was seen before a time.
+struct Refuted {
+  Polygon polygon;  // [m]
+  bool closed = false;
+  double before = 0.0;  // [s] this robot's clock
 };
 
 /// Who says so.

@@ -42,10 +42,16 @@ class Topology {
   /// Takes a scan into the map; for each scan. A pose or a scan that is not usable is refused and counted.
   void integrate(const ObstacleScan& scan, const Pose2& T_odom_base);
 
-  /// Lays an origin's outlines over the map in place of what was held of that origin. Own sensing wins where it has seen.
+  /// Lays an origin's outlines over the map in place of what was held of that origin. Own sensing wins where it has seen,
+  /// unless an outline is newer and nothing is where own sensing looked: a door that has been shut since.
   void setLayer(const LayerUpdate& layer);
   /// Leaves map and graph as if the layer had never been there.
   void removeLayer(const std::string& origin);
+
+  /// Outlines of layers that block and that own sensing has looked through since they were told: to be contested.
+  std::vector<SeenThrough> seenThrough() const;
+  /// Forgets what own sensing held occupied along an outline that somebody has seen through since.
+  void forget(const Refuted& outline);
 
   /// Brings contours and graph up to date with all that changed since the last call.
   TopologyResult update();
