@@ -215,18 +215,31 @@ void SightLaw::observe(const Surroundings& surroundings, const ObstacleScan& sca
       sources[i] = 2 * kFar;
     }
   }
+  gaps_ = spread(sources, prices, kFar);
+  addSeen(tracks, freshPieces(dated(scan, T_odom_scan, now), options_.intruder_length, kJump), prices, pose, now);
+  updated_at_ = now;
+}
+
+/// How far off what can be seen is. It is there already: that ways are narrow makes it no slower to meet.
+void SightLaw::addSeen(const std::vector<TrackedObject>& tracks, const std::vector<FreshPiece>& pieces, const Mask& prices,
+                       const Pose2& pose, double now) {
+  Costs sources(gaps_.size(), 2 * kFar);
+  bool any = !pieces.empty();
   for (const TrackedObject& track : tracks) {
     const Eigen::Vector2d there = track.position + track.velocity * (now - track.stamp);
     const Eigen::Vector2d towards = (pose.position() - there).normalized();
     // What stands now may drive off the next moment: only what clearly leaves is no danger.
     const bool may_come = track.has_moved && track.velocity.dot(towards) > -kLeaving;
-    if (may_come || track.observations < kNewTrack) addIntruder(there, track.radius + kTrackRim, prices, sources);
+    if (!may_come && track.observations >= kNewTrack) continue;
+    addIntruder(there, track.radius + kTrackRim, prices, sources);
+    any = true;
   }
-  for (const FreshPiece& piece : freshPieces(dated(scan, T_odom_scan, now), options_.intruder_length, kJump)) {
-    addIntruder(piece.middle, 0.5 * piece.chord + kTrackRim, prices, sources);
-  }
-  gaps_ = spread(sources, prices, kFar);
-  updated_at_ = now;
+  for (const FreshPiece& piece : pieces) addIntruder(piece.middle, 0.5 * piece.chord + kTrackRim, prices, sources);
+  if (!any) return;
+  Mask even(prices.size());
+  std::transform(prices.begin(), prices.end(), even.begin(), [](std::uint8_t p) { return p ? std::uint8_t{1} : p; });
+  const Costs seen = spread(sources, even, kFar);
+  for (std::size_t i = 0; i < gaps_.size(); ++i) gaps_[i] = std::min(gaps_[i], seen[i]);
 }
 
 SightLaw::Mask SightLaw::driven(const Mask& from, const Mask& prices, const Mask& unseen, double elapsed) const {

@@ -70,6 +70,8 @@ class SightLaw {
   /// Keeps track of where robots that have been seen may be, out of sight.
   void followLost(const std::vector<TrackedObject>& tracks, const Mask& prices, const Mask& unseen, double now);
   /// Something seen at `there` may drive off from all round it: lowers `sources` within `reach` [m].
+  void addSeen(const std::vector<TrackedObject>& tracks, const std::vector<FreshPiece>& pieces, const Mask& prices,
+               const Pose2& pose, double now);
   void addIntruder(const Eigen::Vector2d& there, double reach, const Mask& prices, Costs& sources) const;
 
   SightLawOptions options_;

@@ -37,19 +37,6 @@ bool isStillThere(const TiledMap& map, const Eigen::Vector2d& p) {
   return false;
 }
 
-/// The way with every point left out that can be, from the front; empty if it is shut.
-std::vector<Eigen::Vector2d> shortcut(const Sight& sight, const std::vector<Eigen::Vector2d>& way) {
-  std::vector<Eigen::Vector2d> points{way.front()};
-  for (std::size_t i = 0; i + 1 < way.size();) {
-    std::size_t next = way.size() - 1;
-    while (next > i && !sight.walk(way[i], way[next]).open) --next;
-    if (next == i) return {};
-    points.push_back(way[next]);
-    i = next;
-  }
-  return points;
-}
-
 }  // namespace
 
 /// Whether two ways pass all obstacles that were known, and are still there, on the same sides.
@@ -83,15 +70,13 @@ FoundRoute RouteKeeper::choose(const TiledMap& map, VisibilityGraph& graph, cons
   return best;
 }
 
-/// The best way near the one held: by the graph, else what is held itself, else over the cells before it is called shut.
+/// The best way near the one held; over the cells where the graph has none, before that is called shut.
 FoundRoute RouteKeeper::mend(const TiledMap& map, VisibilityGraph& graph, const Sight& sight, const RouteQuery& query,
                              const std::vector<Eigen::Vector2d>& held) const {
   RouteQuery mending = query;
   mending.allowed = tubeAround(held, options_.class_tube, graph);
   FoundRoute mended = search(graph, sight, mending);
   if (mended.exists() && passAlike(map, held, mended.points)) return mended;
-  const std::vector<Eigen::Vector2d> shortened = shortcut(sight, held);
-  if (!shortened.empty() && passAlike(map, held, shortened)) return measuredRoute(sight, shortened);
   return measuredRoute(sight, searchGrid(map, sight, query.start, query.goal, options_.max_flood, held, options_.class_tube));
 }
 
