@@ -20,12 +20,13 @@ std::vector<Contour> tileOutlines(const TiledMap& map, const Tile& tile, CellFla
     std::vector<cv::Point> simple;
     cv::approxPolyDP(outlines[i], simple, kTolerance, true);
     Contour contour;
-    contour.closed = true;
-    contour.hole = hierarchy[i][3] >= 0;
+    contour.closed = simple.size() > 2;  // what is one cell thick is a line, there and back
+    contour.hole = contour.closed && hierarchy[i][3] >= 0;
     contour.tile = {tile.tx, tile.ty};
     contour.piece = static_cast<int>(contours.size());
     for (const cv::Point& p : simple)
       contour.polygon.push_back(map.centerOf(tile.tx * kTileSize + p.x, tile.ty * kTileSize + p.y));
+    if (contour.polygon.size() == 1) contour.polygon.push_back(contour.polygon[0] + Eigen::Vector2d(0.5 * map.resolution(), 0.0));
     contours.push_back(std::move(contour));
   }
   return contours;

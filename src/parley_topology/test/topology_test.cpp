@@ -260,6 +260,20 @@ TEST(Topology, tellsItsOutlinesByTile) {
   }
 }
 
+TEST(Topology, tellsThinWallsAsLines) {
+  TestWorld world(10.0, 10.0);
+  world.setBox(4.0, 5.0, 6.0, 5.05);
+  world.setBox(3.0, 3.0, 3.05, 3.05);
+  Topology topology({}, testFootprint());
+  explore(topology, world);
+  int lines = 0;
+  for (const Contour& contour : topology.contours()) {
+    ASSERT_GE(contour.polygon.size(), contour.closed ? 3U : 2U);
+    lines += contour.closed ? 0 : 1;
+  }
+  EXPECT_GT(lines, 1);
+}
+
 TEST(Topology, refusesWhatIsNotFinite) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   TestWorld world(6.0, 6.0);
