@@ -13,6 +13,7 @@ namespace {
 constexpr double kMessagePeriod = 0.25;  // [s]
 constexpr double kDelay = 0.03;          // [s]
 constexpr int kEncounterScans = 10;      // [-] of mutual sight in a row
+constexpr double kToldSpan = 1.0;        // [s] of sightings that each message is about
 constexpr double kRareKeyframe = 2.5;    // [m]
 constexpr std::size_t kKeyframes = 2;    // [-] in a message
 constexpr double kPlaceBytes = 12.0;     // [-] of identity, stamp and pose of a keyframe
@@ -66,17 +67,17 @@ Conversation::Message Conversation::compose(double now, const RobotState& robot)
   Message message;
   message.arrival = now + kDelay;
   message.motion = {now + offset_, robot.odometry, robot.twist, test::kRobot, localizers_[1].travel()};
-  message.sights = localizers_[1].sights(reported_);
-  if (!message.sights.empty()) reported_ = message.sights.back().stamp;
+  message.sights = localizers_[1].sights(now + offset_ - kToldSpan);
   if (state_ == PoseState::kConfirmed) return message;
   for (const SightReport& report : message.sights) {
     outcome_.bytes += kReportBytes + kBlobBytes * static_cast<double>(report.blobs.size());
   }
   for (const Keyframe& keyframe : localizers_[1].keyframes()) {
-    // One now and then before anything is known of the other; all once it says that it may have been seen.
-    const bool is_due = state_heard_ >= PoseState::kCandidate || localizers_[1].travel() > told_travel_ + kRareKeyframe;
+    // One now and then before anything is known of the other, again until it arrives; all once it says that it may have been
+    // seen.
+    const bool is_due = state_heard_ >= PoseState::kCandidate ||
+                        (message.keyframes.empty() && localizers_[1].travel() > arrived_travel_ + kRareKeyframe);
     if (arrived_.count(keyframe.id) > 0 || message.keyframes.size() >= kKeyframes || !is_due) continue;
-    told_travel_ = localizers_[1].travel();
     message.keyframes.push_back(keyframe);
     outcome_.bytes += kPlaceBytes + static_cast<double>(keyframe.descriptor.size());
   }
@@ -89,6 +90,7 @@ void Conversation::send(Message message) {
   if (chance(random_) >= options_.loss) state_heard_ = state_;
   if (chance(random_) < options_.loss) return;
   for (const Keyframe& keyframe : message.keyframes) arrived_.insert(keyframe.id);
+  if (!message.keyframes.empty()) arrived_travel_ = localizers_[1].travel();
   messages_.push_back(std::move(message));
 }
 

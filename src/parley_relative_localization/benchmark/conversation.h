@@ -49,12 +49,11 @@ class Conversation {
   double offset_ = 0.0, phase_ = 0.0;  // [s]
   std::deque<Message> messages_;
   std::set<int> arrived_;                          // [-] keyframes
-  double reported_ = -1.0;                         // [s] peer's clock
   double next_message_ = 0.0;                      // [s]
   double first_sight_ = -1.0, last_sight_ = -1.0;  // [s]
   double travel_at_sight_ = 0.0;                   // [m]
   int scans_in_sight_ = 0;                         // [-]
-  double told_travel_ = -1e9;                      // [m] robot 1's, when it last sent a keyframe
+  double arrived_travel_ = -1e9;                   // [m] robot 1's, when a keyframe last arrived
   PoseState state_ = PoseState::kUnknown, state_heard_ = PoseState::kUnknown;
   Outcome outcome_;
 };

@@ -70,14 +70,19 @@ std::vector<Keyframe> OwnRecorder::keyframes(std::size_t count) const {
 }
 
 std::vector<SightReport> OwnRecorder::reports(double since, std::size_t count) const {
-  std::vector<SightReport> result;
-  const auto& sights = view_.side.sights;
-  for (auto it = sights.rbegin(); it != sights.rend() && it->stamp > since && result.size() < count; ++it) {
-    if (it->blobs.empty()) continue;
-    const auto told = std::min(it->blobs.size(), static_cast<std::size_t>(options_.max_told_blobs));
-    result.push_back({it->stamp, it->T_odom_scan, {it->blobs.begin(), it->blobs.begin() + static_cast<long>(told)}});
+  std::vector<const SightRecord*> seen;
+  for (const SightRecord& sight : view_.side.sights) {
+    if (sight.stamp > since && !sight.blobs.empty()) seen.push_back(&sight);
   }
-  std::reverse(result.begin(), result.end());
+  std::vector<SightReport> result;
+  const std::size_t chosen = std::min(count, seen.size());
+  for (std::size_t i = 0; i < chosen; ++i) {
+    // Spread evenly, with the newest and the oldest: of little that is heard each piece is to say much.
+    const std::size_t place = chosen == 1 ? seen.size() - 1 : i * (seen.size() - 1) / (chosen - 1);
+    const SightRecord& sight = *seen[place];
+    const auto told = std::min(sight.blobs.size(), static_cast<std::size_t>(options_.max_told_blobs));
+    result.push_back({sight.stamp, sight.T_odom_scan, {sight.blobs.begin(), sight.blobs.begin() + static_cast<long>(told)}});
+  }
   return result;
 }
 

@@ -9,6 +9,7 @@
 namespace parley {
 namespace {
 
+constexpr double kSameInstant = 0.12;       // [s] between a pose and a sight that together show where the lidar sits
 constexpr double kWeighPeriod = 0.2;        // [s] own scans alone are reason enough after this time
 constexpr double kTentativeMemory = 30.0;   // [s] without new evidence, what is not confirmed is forgotten
 constexpr double kBlindFactor = 2.0;        // [-] where surfaces say nothing, sightings must say so much more
@@ -26,7 +27,28 @@ void PeerLocalizer::addMotion(const MotionReport& motion) {
   side_.footprint = motion.footprint;
   if (side_.motion.empty() || motion.stamp >= side_.motion.latest().stamp) travel_ = motion.travel;
   side_.motion.add({motion.stamp, motion.T_odom_base, motion.twist.speed, motion.twist.turn_rate, true});
+  readMotionFromSights(motion);
   changed_ = true;
+}
+
+/// Each report says where the lidar was: once it is known where that sits on the robot, also where the robot was.
+void PeerLocalizer::readMotionFromSights(const MotionReport& motion) {
+  for (const SightRecord& sight : side_.sights) {
+    const double gap = sight.stamp - motion.stamp;
+    if (std::abs(gap) > kSameInstant) continue;
+    const Pose2 T_odom_base = integrateTwist(motion.T_odom_base, motion.twist.speed, motion.twist.turn_rate, gap);
+    const Eigen::Vector2d p = T_odom_base.inverse() * sight.T_odom_scan.position();
+    if (p.norm() > motion.footprint.circumscribedRadius()) continue;
+    lidar_base_ = p;
+    for (const SightRecord& other : side_.sights) readMotionFrom(other);
+    return;
+  }
+}
+
+void PeerLocalizer::readMotionFrom(const SightRecord& sight) {
+  if (!lidar_base_) return;
+  const Eigen::Vector2d p = sight.T_odom_scan * -*lidar_base_;
+  side_.motion.add({sight.stamp, {p.x(), p.y(), sight.T_odom_scan.yaw}, 0.0, 0.0, false});
 }
 
 void PeerLocalizer::addSights(const SightReport& report) {
@@ -36,6 +58,7 @@ void PeerLocalizer::addSights(const SightReport& report) {
   record.stamp = report.stamp;
   record.T_odom_scan = report.T_odom_scan;
   record.blobs = report.blobs;
+  readMotionFrom(record);
   side_.add(std::move(record), static_cast<std::size_t>(options_.max_sights));
   changed_ = true;
 }
@@ -108,8 +131,7 @@ bool PeerLocalizer::isConfirmable(const SightFit& fit) const {
   if (fit.span() < options_.confirm_span) return false;
   if (hypotheses_.hasRival() || !verdict_.asked) return false;
   const double factor = verdict_.agrees ? (verdict_.observed ? 0.5 : 1.0) : kBlindFactor;
-  return fit.travel >= options_.confirm_travel * std::max(factor, 1.0) &&
-         fit.distinction >= options_.confirm_distinction * factor;
+  return fit.travel >= options_.confirm_travel && fit.distinction >= options_.confirm_distinction * factor;
 }
 
 bool PeerLocalizer::isImprovement(const SightFit& fit, const OwnView& own) const {

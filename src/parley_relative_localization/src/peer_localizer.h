@@ -64,6 +64,8 @@ class PeerLocalizer {
   double travel() const { return travel_; }
 
  private:
+  void readMotionFromSights(const MotionReport& motion);
+  void readMotionFrom(const SightRecord& sight);
   SurfaceVerdict checkBest(const OwnView& own, RelativeLocalizationCounters& counters);
   bool isGood(const SightFit& fit) const;
   bool isImprovement(const SightFit& fit, const OwnView& own) const;
@@ -75,6 +77,7 @@ class PeerLocalizer {
   RelativeLocalizationOptions options_;
   std::string name_;
   MeetingSide side_;
+  std::optional<Eigen::Vector2d> lidar_base_;  // [m] where the peer's lidar sits on it, once that is known
   std::deque<PlacedScan> keyframes_;
   std::shared_ptr<const SurfaceMap> surfaces_;
   Hypotheses hypotheses_;
