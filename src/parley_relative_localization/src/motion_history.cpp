@@ -58,6 +58,7 @@ std::optional<MotionAt> MotionHistory::at(double time) const {
   }
   if (after == readings_.begin()) return std::nullopt;
   const TimedPose& before = *std::prev(after);
+  if (time - before.stamp < kSame) return MotionAt{before.pose, velocityAt(after - readings_.begin() - 1), 0.0};
   if (after != readings_.end()) {
     if (after->stamp - before.stamp > kLongestGap) return std::nullopt;
     return between(before, *after, time);

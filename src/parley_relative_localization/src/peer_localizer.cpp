@@ -27,28 +27,27 @@ void PeerLocalizer::addMotion(const MotionReport& motion) {
   side_.footprint = motion.footprint;
   if (side_.motion.empty() || motion.stamp >= side_.motion.latest().stamp) travel_ = motion.travel;
   side_.motion.add({motion.stamp, motion.T_odom_base, motion.twist.speed, motion.twist.turn_rate, true});
-  readMotionFromSights(motion);
+  heard_motion_ = motion;
+  readMotionFromSights();
   changed_ = true;
 }
 
 /// Each report says where the lidar was: once it is known where that sits on the robot, also where the robot was.
-void PeerLocalizer::readMotionFromSights(const MotionReport& motion) {
+void PeerLocalizer::readMotionFromSights() {
+  if (side_.motion.empty()) return;
   for (const SightRecord& sight : side_.sights) {
-    const double gap = sight.stamp - motion.stamp;
+    const double gap = sight.stamp - heard_motion_.stamp;
     if (std::abs(gap) > kSameInstant) continue;
-    const Pose2 T_odom_base = integrateTwist(motion.T_odom_base, motion.twist.speed, motion.twist.turn_rate, gap);
+    const Twist2& twist = heard_motion_.twist;
+    const Pose2 T_odom_base = integrateTwist(heard_motion_.T_odom_base, twist.speed, twist.turn_rate, gap);
     const Eigen::Vector2d p = T_odom_base.inverse() * sight.T_odom_scan.position();
-    if (p.norm() > motion.footprint.circumscribedRadius()) continue;
-    lidar_base_ = p;
-    for (const SightRecord& other : side_.sights) readMotionFrom(other);
-    return;
+    if (p.norm() < side_.footprint.circumscribedRadius()) lidar_base_ = p;
   }
-}
-
-void PeerLocalizer::readMotionFrom(const SightRecord& sight) {
   if (!lidar_base_) return;
-  const Eigen::Vector2d p = sight.T_odom_scan * -*lidar_base_;
-  side_.motion.add({sight.stamp, {p.x(), p.y(), sight.T_odom_scan.yaw}, 0.0, 0.0, false});
+  for (const SightRecord& sight : side_.sights) {
+    const Eigen::Vector2d p = sight.T_odom_scan * -*lidar_base_;
+    side_.motion.add({sight.stamp, {p.x(), p.y(), sight.T_odom_scan.yaw}, 0.0, 0.0, false});
+  }
 }
 
 void PeerLocalizer::addSights(const SightReport& report) {
@@ -58,8 +57,8 @@ void PeerLocalizer::addSights(const SightReport& report) {
   record.stamp = report.stamp;
   record.T_odom_scan = report.T_odom_scan;
   record.blobs = report.blobs;
-  readMotionFrom(record);
   side_.add(std::move(record), static_cast<std::size_t>(options_.max_sights));
+  readMotionFromSights();
   changed_ = true;
 }
 

@@ -64,8 +64,7 @@ class PeerLocalizer {
   double travel() const { return travel_; }
 
  private:
-  void readMotionFromSights(const MotionReport& motion);
-  void readMotionFrom(const SightRecord& sight);
+  void readMotionFromSights();
   SurfaceVerdict checkBest(const OwnView& own, RelativeLocalizationCounters& counters);
   bool isGood(const SightFit& fit) const;
   bool isImprovement(const SightFit& fit, const OwnView& own) const;
@@ -77,6 +76,7 @@ class PeerLocalizer {
   RelativeLocalizationOptions options_;
   std::string name_;
   MeetingSide side_;
+  MotionReport heard_motion_;                  // the last one
   std::optional<Eigen::Vector2d> lidar_base_;  // [m] where the peer's lidar sits on it, once that is known
   std::deque<PlacedScan> keyframes_;
   std::shared_ptr<const SurfaceMap> surfaces_;
