@@ -76,9 +76,11 @@ std::vector<SightReport> OwnRecorder::reports(double since, std::size_t count) c
   }
   std::vector<SightReport> result;
   const std::size_t chosen = std::min(count, seen.size());
-  for (std::size_t i = 0; i < chosen; ++i) {
-    // Spread evenly, with the newest and the oldest: of little that is heard each piece is to say much.
-    const std::size_t place = chosen == 1 ? seen.size() - 1 : i * (seen.size() - 1) / (chosen - 1);
+  for (std::size_t i = chosen; i-- > 0;) {
+    // Most of them new, which finds a peer soon; the last one old: of little that is heard each piece is to say much.
+    const double share = chosen == 1 ? 0.0 : static_cast<double>(i) / static_cast<double>(chosen - 1);
+    const auto before = static_cast<std::size_t>(std::lround(share * share * static_cast<double>(seen.size() - 1)));
+    const std::size_t place = seen.size() - 1 - std::max(before, i);
     const SightRecord& sight = *seen[place];
     const auto told = std::min(sight.blobs.size(), static_cast<std::size_t>(options_.max_told_blobs));
     result.push_back({sight.stamp, sight.T_odom_scan, {sight.blobs.begin(), sight.blobs.begin() + static_cast<long>(told)}});
