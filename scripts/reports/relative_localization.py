@@ -16,7 +16,7 @@ SWEPT_WORLDS = ["maps/scenario_a.yaml", "maps/scenario_c.yaml", "mirrored"]
 SWEEPS = {"as_it_is": [], "offset_0.1": ["--offset", "0.1"], "offset_0.2": ["--offset", "0.2"], "loss_0.5": ["--loss", "0.5"],
           "loss_0.9": ["--loss", "0.9"], "noise_0.05": ["--noise", "0.05"], "drift_5": ["--drift", "5"],
           "clutter_6": ["--clutter", "6"], "range_8": ["--range", "8"]}
-REPLAYS = {"painted": [], "surfaces_alone": ["--unpainted"], "scans_alone": ["--scans-alone"]}
+REPLAYS = {"painted": (1, []), "surfaces_alone": (2, ["--unpainted"]), "scans_alone": (2, ["--scans-alone"])}
 PERIODIC = "periodic"
 TOGETHER = "all_but_periodic"
 
@@ -64,7 +64,8 @@ def main():
     parser.add_argument("paths", nargs="*", type=Path)
     parser.add_argument("--encounters", type=int, default=2000, help="in all worlds together, and as many robots elsewhere")
     parser.add_argument("--swept", type=int, default=60, help="encounters of each sweep, and half as many elsewhere")
-    parser.add_argument("--replayed", type=int, default=200, help="encounters of each log, and as many elsewhere")
+    parser.add_argument("--replayed", type=int, default=200, help="encounters of each log, and three quarters as many elsewhere; half of both where bodies are not "
+                             "painted or the log's scans are alone")
     parser.add_argument("--seed", type=int, default=1)
     given = parser.parse_args()
     worlds = [path for path in given.paths if path.suffix == ".yaml"]
@@ -79,8 +80,8 @@ def main():
     counts = ["--encounters", given.swept, "--elsewhere", given.swept // 2]
     for name, arguments in SWEEPS.items():
         results[name] = run(study, [*SWEPT_WORLDS, *counts, *seed, *arguments], given.output / f"encounters_{name}")
-    counts = ["--encounters", given.replayed, "--elsewhere", given.replayed]
-    for name, arguments in REPLAYS.items() if logs else ():
+    for name, (part, arguments) in REPLAYS.items() if logs else ():
+        counts = ["--encounters", given.replayed // part, "--elsewhere", 3 * given.replayed // (4 * part)]
         results[name] = run(replay, [*logs, *counts, *seed, *arguments], given.output / f"logs_{name}")
     if not logs:
         print("No log given: encounters in real scans are not measured. Logs are no part of this repository; give paths of "

@@ -3,11 +3,11 @@
 
 #include <zlib.h>
 
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace parley::study {
 namespace {
@@ -33,15 +33,22 @@ std::optional<LogScan> parseScan(std::istringstream& words) {
 
 struct WheelReading {
   Pose2 pose;
-  double stamp = 0.0;  // [s]
+  double stamp = 0.0;  // [s] 0 where the reading is a correction
+  bool is_known = false;
 };
 
-std::optional<WheelReading> parseWheels(std::istringstream& words) {
+WheelReading parseWheels(std::istringstream& words) {
   WheelReading reading;
   double speed = 0.0, turn_rate = 0.0, acceleration = 0.0;
   words >> reading.pose.x >> reading.pose.y >> reading.pose.yaw >> speed >> turn_rate >> acceleration >> reading.stamp;
-  if (!words || !reading.pose.isFinite()) return std::nullopt;
+  reading.is_known = !words.fail() && reading.pose.isFinite();
   return reading;
+}
+
+/// The motion from one reading to the next, at the end of the way from a scan.
+void addMotion(const WheelReading& from, const WheelReading& to, std::vector<Pose2>& way) {
+  if (!from.is_known || to.stamp == 0.0) return;
+  way.push_back((way.empty() ? Pose2{} : way.back()) * (from.pose.inverse() * to.pose));
 }
 
 std::string textOf(const std::string& path) {
@@ -61,27 +68,23 @@ CarmenLog parseCarmenLog(const std::string& name, const std::string& text) {
   CarmenLog log;
   log.name = name;
   std::istringstream lines(text);
-  std::optional<Pose2> last;  // of the wheels since the newest scan
+  WheelReading last;  // since the newest scan
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
     std::string kind;
     words >> kind;
     if (kind == "FLASER") {
       auto scan = parseScan(words);
-      if (scan) {
-        log.scans.push_back(std::move(*scan));
-        last.reset();
-      } else {
-        ++log.malformed;
-      }
+      log.malformed += scan ? 0 : 1;
+      if (!scan) continue;
+      log.scans.push_back(std::move(*scan));
+      last.is_known = false;
     } else if (kind == "ODOM") {
-      const auto reading = parseWheels(words);
-      log.malformed += reading ? 0 : 1;
-      if (!reading || log.scans.empty()) continue;
-      std::vector<Pose2>& way = log.scans.back().way;
-      const bool is_motion = last && reading->stamp != 0.0;
-      if (is_motion) way.push_back((way.empty() ? Pose2{} : way.back()) * (last->inverse() * reading->pose));
-      last = reading->pose;
+      const WheelReading reading = parseWheels(words);
+      log.malformed += reading.is_known ? 0 : 1;
+      if (!reading.is_known || log.scans.empty()) continue;
+      addMotion(last, reading, log.scans.back().way);
+      last = reading;
     }
   }
   return log;

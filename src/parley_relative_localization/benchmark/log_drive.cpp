@@ -85,7 +85,9 @@ void LogDrive::step(double dt, bool back_off) {
   last_scan_ = at(clock_).scan;
   const Pose2 before = truth();
   rate_ += std::clamp((back_off ? -1.0 : 1.0) - rate_, -kComeAbout * dt, kComeAbout * dt);
+  const double clock = clock_;
   clock_ = std::clamp(clock_ + rate_ * dt, 0.0, knots_.back().time);
+  pace_ = (clock_ - clock) / dt;
   travel_ += distanceOf(before, truth());
 }
 
@@ -95,7 +97,7 @@ Twist2 LogDrive::twist() const {
   if (to - from < 1e-3) return {};
   const Pose2 a = at(from).pose, b = at(to).pose;
   const double along = (b.position() - a.position()).dot(truth().direction());
-  return {rate_ * along / (to - from), rate_ * angleBetween(a.yaw, b.yaw) / (to - from)};
+  return {pace_ * along / (to - from), pace_ * angleBetween(a.yaw, b.yaw) / (to - from)};
 }
 
 std::vector<const LogScan*> LogDrive::scans() const {
@@ -108,9 +110,10 @@ std::vector<const LogScan*> LogDrive::scans() const {
 }
 
 const LogScan* LogDrive::passed() const {
-  const double place = at(clock_).scan, low = std::min(place, last_scan_), high = std::max(place, last_scan_);
-  const double scan = std::floor(high);
-  return scan >= low && high > low ? &log_->scans[static_cast<std::size_t>(scan)] : nullptr;
+  const double place = at(clock_).scan;
+  const double scan = place > last_scan_ ? std::floor(place) : std::ceil(place);
+  const bool is_passed = place > last_scan_ ? scan > last_scan_ : scan < last_scan_;
+  return is_passed ? &log_->scans[static_cast<std::size_t>(scan)] : nullptr;
 }
 
 }  // namespace parley::study

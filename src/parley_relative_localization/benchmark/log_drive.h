@@ -47,9 +47,10 @@ class LogDrive {
 
   const CarmenLog* log_;
   std::vector<Knot> knots_;
-  double clock_ = 0.0, rate_ = 1.0;  // [s] [-]
-  double travel_ = 0.0;              // [m]
-  double last_scan_ = 0.0;           // [-] before the last step
+  double clock_ = 0.0;              // [s]
+  double rate_ = 1.0, pace_ = 1.0;  // [-] of the clock, wanted and as it was in the last step
+  double travel_ = 0.0;             // [m]
+  double last_scan_ = 0.0;          // [-] before the last step
 };
 
 }  // namespace parley::study

@@ -12,11 +12,12 @@ constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr double kFar = 15.0;        // [m] as far as a beam is followed
 constexpr double kNoReturn = 80.0;   // [m] the log's own sign
+constexpr double kApex = 1e-3;       // [m] behind the lidar, so that its own place is inside what it saw
 constexpr double kLeast = 0.02;      // [m] nearer readings are none
 constexpr double kJoin = 0.15;       // [m] neighbouring returns are of one surface within this
 constexpr double kJoinShare = 0.06;  // [-] and this share of their range
 
-/// The outline of what a scan saw: from the lidar around the ends of its beams and back.
+/// The outline of what a scan saw: from just behind the lidar around the ends of its beams and back.
 struct Corner {
   Eigen::Vector2d p;   // [m] map
   double range = 0.0;  // [m] from the scan's own place
@@ -24,7 +25,7 @@ struct Corner {
 };
 
 std::vector<Corner> outlineOf(const LogScan& scan) {
-  std::vector<Corner> corners{{scan.T_map_base.position(), 0.0, false}};
+  std::vector<Corner> corners{{scan.T_map_base * Eigen::Vector2d(-kApex, 0.0), 0.0, false}};
   for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
     const double range = static_cast<double>(scan.ranges[i]);
     const bool is_known = range >= kLeast;  // not for NaN

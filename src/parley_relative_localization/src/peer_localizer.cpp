@@ -9,7 +9,6 @@
 namespace parley {
 namespace {
 
-constexpr double kSameInstant = 0.12;       // [s] between a pose and a sight that together show where the lidar sits
 constexpr double kWeighPeriod = 0.2;        // [s] own scans alone are reason enough after this time
 constexpr double kTentativeMemory = 30.0;   // [s] without new evidence, what is not confirmed is forgotten
 constexpr double kBlindFactor = 2.0;        // [-] where surfaces say nothing, sightings must say so much more
@@ -26,28 +25,8 @@ PeerLocalizer::PeerLocalizer(const RelativeLocalizationOptions& options, std::st
 void PeerLocalizer::addMotion(const MotionReport& motion) {
   side_.footprint = motion.footprint;
   if (side_.motion.empty() || motion.stamp >= side_.motion.latest().stamp) travel_ = motion.travel;
-  side_.motion.add({motion.stamp, motion.T_odom_base, motion.twist.speed, motion.twist.turn_rate, true});
-  heard_motion_ = motion;
-  readMotionFromSights();
+  sight_motion_.add(motion, side_);
   changed_ = true;
-}
-
-/// Each report says where the lidar was: once it is known where that sits on the robot, also where the robot was.
-void PeerLocalizer::readMotionFromSights() {
-  if (side_.motion.empty()) return;
-  for (const SightRecord& sight : side_.sights) {
-    const double gap = sight.stamp - heard_motion_.stamp;
-    if (std::abs(gap) > kSameInstant) continue;
-    const Twist2& twist = heard_motion_.twist;
-    const Pose2 T_odom_base = integrateTwist(heard_motion_.T_odom_base, twist.speed, twist.turn_rate, gap);
-    const Eigen::Vector2d p = T_odom_base.inverse() * sight.T_odom_scan.position();
-    if (p.norm() < side_.footprint.circumscribedRadius()) lidar_base_ = p;
-  }
-  if (!lidar_base_) return;
-  for (const SightRecord& sight : side_.sights) {
-    const Eigen::Vector2d p = sight.T_odom_scan * -*lidar_base_;
-    side_.motion.add({sight.stamp, {p.x(), p.y(), sight.T_odom_scan.yaw}, 0.0, 0.0, false});
-  }
 }
 
 void PeerLocalizer::addSights(const SightReport& report) {
@@ -58,7 +37,7 @@ void PeerLocalizer::addSights(const SightReport& report) {
   record.T_odom_scan = report.T_odom_scan;
   record.blobs = report.blobs;
   side_.add(std::move(record), static_cast<std::size_t>(options_.max_sights));
-  readMotionFromSights();
+  sight_motion_.read(side_);
   changed_ = true;
 }
 

@@ -9,6 +9,7 @@
 
 #include "hypotheses.h"
 #include "parley_relative_localization/relative_localization.h"
+#include "sight_motion.h"
 #include "surface_check.h"
 
 namespace parley {
@@ -64,7 +65,6 @@ class PeerLocalizer {
   double travel() const { return travel_; }
 
  private:
-  void readMotionFromSights();
   SurfaceVerdict checkBest(const OwnView& own, RelativeLocalizationCounters& counters);
   bool isGood(const SightFit& fit) const;
   bool isImprovement(const SightFit& fit, const OwnView& own) const;
@@ -76,8 +76,7 @@ class PeerLocalizer {
   RelativeLocalizationOptions options_;
   std::string name_;
   MeetingSide side_;
-  MotionReport heard_motion_;                  // the last one
-  std::optional<Eigen::Vector2d> lidar_base_;  // [m] where the peer's lidar sits on it, once that is known
+  SightMotion sight_motion_;
   std::deque<PlacedScan> keyframes_;
   std::shared_ptr<const SurfaceMap> surfaces_;
   Hypotheses hypotheses_;
