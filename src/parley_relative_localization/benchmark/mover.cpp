@@ -7,11 +7,9 @@
 namespace parley::study {
 namespace {
 
-constexpr double kTurnRate = 1.5708;         // [rad/s]
-constexpr double kAcceleration = 2.0;        // [m/s^2]
-constexpr double kAhead = 1.0;               // [m]
-constexpr double kTranslationDrift = 0.003;  // [m]
-constexpr double kRotationDrift = 0.0002;    // [rad]
+constexpr double kTurnRate = 1.5708;   // [rad/s]
+constexpr double kAcceleration = 2.0;  // [m/s^2]
+constexpr double kAhead = 1.0;         // [m]
 
 Eigen::Vector2d startingHeading(const GoalField& field, const Eigen::Vector2d& start) {
   return field.target(start, kAhead) - start;
@@ -48,15 +46,11 @@ void Mover::step(double dt, const std::vector<const Mover*>& others) {
   const Pose2 next = integrateTwist(truth_, twist_.speed, twist_.turn_rate, dt);
   const bool blocked = world_->clearance(next.position()) < 0.2;
   if (blocked) twist_.speed = 0.0;
-  const double way = twist_.speed * dt, spread = drift_ * std::sqrt(std::abs(way));
-  std::normal_distribution<double> noise(0.0, 1.0);
-  Pose2 measured = integrateTwist({}, twist_.speed, twist_.turn_rate, dt);
-  measured.x += kTranslationDrift * spread * noise(random_);
-  measured.y += kTranslationDrift * spread * noise(random_);
-  measured.yaw += kRotationDrift * spread * noise(random_);
-  truth_ = integrateTwist(truth_, twist_.speed, twist_.turn_rate, dt);
-  odometry_ = odometry_ * measured;
-  travel_ += std::abs(way);
+  const Pose2 motion = integrateTwist({}, twist_.speed, twist_.turn_rate, dt);
+  const double way = std::abs(twist_.speed * dt);
+  truth_ = truth_ * motion;
+  odometry_ = driftedOdometry(odometry_, motion, way, drift_, random_);
+  travel_ += way;
 }
 
 }  // namespace parley::study

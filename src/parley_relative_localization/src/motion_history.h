@@ -41,6 +41,8 @@ class MotionHistory {
   double travel(double from, double to) const;
 
  private:
+  Eigen::Vector2d velocityAt(long index) const;
+
   std::size_t capacity_;
   std::deque<TimedPose> readings_;
 };

@@ -70,14 +70,21 @@ std::vector<Keyframe> OwnRecorder::keyframes(std::size_t count) const {
 }
 
 std::vector<SightReport> OwnRecorder::reports(double since, std::size_t count) const {
-  std::vector<SightReport> result;
-  const auto& sights = view_.side.sights;
-  for (auto it = sights.rbegin(); it != sights.rend() && it->stamp > since && result.size() < count; ++it) {
-    if (it->blobs.empty()) continue;
-    const auto told = std::min(it->blobs.size(), static_cast<std::size_t>(options_.max_told_blobs));
-    result.push_back({it->stamp, it->T_odom_scan, {it->blobs.begin(), it->blobs.begin() + static_cast<long>(told)}});
+  std::vector<const SightRecord*> seen;
+  for (const SightRecord& sight : view_.side.sights) {
+    if (sight.stamp > since && !sight.blobs.empty()) seen.push_back(&sight);
   }
-  std::reverse(result.begin(), result.end());
+  std::vector<SightReport> result;
+  const std::size_t chosen = std::min(count, seen.size());
+  for (std::size_t i = chosen; i-- > 0;) {
+    // Most of them new, which finds a peer soon; the last one old: of little that is heard each piece is to say much.
+    const double share = chosen == 1 ? 0.0 : static_cast<double>(i) / static_cast<double>(chosen - 1);
+    const auto before = static_cast<std::size_t>(std::lround(share * share * static_cast<double>(seen.size() - 1)));
+    const std::size_t place = seen.size() - 1 - std::max(before, i);
+    const SightRecord& sight = *seen[place];
+    const auto told = std::min(sight.blobs.size(), static_cast<std::size_t>(options_.max_told_blobs));
+    result.push_back({sight.stamp, sight.T_odom_scan, {sight.blobs.begin(), sight.blobs.begin() + static_cast<long>(told)}});
+  }
   return result;
 }
 

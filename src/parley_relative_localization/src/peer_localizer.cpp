@@ -25,7 +25,7 @@ PeerLocalizer::PeerLocalizer(const RelativeLocalizationOptions& options, std::st
 void PeerLocalizer::addMotion(const MotionReport& motion) {
   side_.footprint = motion.footprint;
   if (side_.motion.empty() || motion.stamp >= side_.motion.latest().stamp) travel_ = motion.travel;
-  side_.motion.add({motion.stamp, motion.T_odom_base, motion.twist.speed, motion.twist.turn_rate, true});
+  sight_motion_.add(motion, side_);
   changed_ = true;
 }
 
@@ -37,6 +37,7 @@ void PeerLocalizer::addSights(const SightReport& report) {
   record.T_odom_scan = report.T_odom_scan;
   record.blobs = report.blobs;
   side_.add(std::move(record), static_cast<std::size_t>(options_.max_sights));
+  sight_motion_.read(side_);
   changed_ = true;
 }
 
@@ -108,8 +109,7 @@ bool PeerLocalizer::isConfirmable(const SightFit& fit) const {
   if (fit.span() < options_.confirm_span) return false;
   if (hypotheses_.hasRival() || !verdict_.asked) return false;
   const double factor = verdict_.agrees ? (verdict_.observed ? 0.5 : 1.0) : kBlindFactor;
-  return fit.travel >= options_.confirm_travel * std::max(factor, 1.0) &&
-         fit.distinction >= options_.confirm_distinction * factor;
+  return fit.travel >= options_.confirm_travel && fit.distinction >= options_.confirm_distinction * factor;
 }
 
 bool PeerLocalizer::isImprovement(const SightFit& fit, const OwnView& own) const {

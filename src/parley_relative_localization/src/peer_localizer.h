@@ -9,6 +9,7 @@
 
 #include "hypotheses.h"
 #include "parley_relative_localization/relative_localization.h"
+#include "sight_motion.h"
 #include "surface_check.h"
 
 namespace parley {
@@ -75,6 +76,7 @@ class PeerLocalizer {
   RelativeLocalizationOptions options_;
   std::string name_;
   MeetingSide side_;
+  SightMotion sight_motion_;
   std::deque<PlacedScan> keyframes_;
   std::shared_ptr<const SurfaceMap> surfaces_;
   Hypotheses hypotheses_;

@@ -122,6 +122,32 @@ TEST(Encounter, aWrongClockIsEstimated) {
   }
 }
 
+TEST(Encounter, aSingleMessageIsEnoughWhereverTheLidarSits) {
+  for (const double ahead : {0.0, 0.2}) {
+    Stage stage = roomMeeting();
+    stage.told_span = 1.0;
+    stage.actor(1).lidar_base.x() = ahead;
+    for (int i = 0; i < 18; ++i) stage.step(false);
+    EXPECT_EQ(stage.estimate(0, "b").state, PoseState::kUnknown);
+    for (int i = 0; i < 2; ++i) stage.step();  // one of them talks
+    for (int i = 0; i < 3; ++i) stage.step(false);
+    ASSERT_EQ(stage.estimate(0, "b").state, PoseState::kConfirmed) << ahead;
+    expectRight(stage, 0, 1);
+  }
+}
+
+TEST(Encounter, ofWhatWasSeenMoreThatIsNewIsTold) {
+  Stage stage = roomMeeting();
+  for (int i = 0; i < 25; ++i) stage.step(false);
+  const std::vector<SightReport> all = stage.actor(0).localization.sights(stage.now() - 1.05);
+  ASSERT_EQ(all.size(), 4U);
+  const double ages[] = {1.0, 0.4, 0.1, 0.0};  // [s]
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(stage.now() - all[i].stamp, ages[i], 0.06) << i;
+  const std::vector<SightReport> few = stage.actor(0).localization.sights(stage.now() - 0.15);
+  ASSERT_EQ(few.size(), 2U);
+  EXPECT_LT(few.front().stamp, few.back().stamp);
+}
+
 TEST(Encounter, sameInputsSameAnswers) {
   Stage one = roomMeeting(4), two = roomMeeting(4);
   for (int i = 0; i < 25; ++i) {

@@ -114,7 +114,7 @@ TEST(Input, keyframesAreTakenOnTheWay) {
     EXPECT_GT(keyframes[i - 1].id, keyframes[i].id);
   }
   EXPECT_NEAR(localization.travel(), 5.9, 1e-9);
-  EXPECT_LE(localization.sights(0.0).size(), 3U);
+  EXPECT_LE(localization.sights(0.0).size(), static_cast<std::size_t>(RelativeLocalizationOptions().max_reports));
 }
 
 TEST(MotionHistory, interpolatesArcs) {

@@ -39,7 +39,18 @@ struct Actor {
   MotionReport motion(double now) const { return {now + clock, odometry(), twist, kRobot, localization.travel()}; }
 
   std::string name;
+  /// What its lidar stage sees.
+  ObstacleScan scan(const WallRange& walls, const std::vector<Body>& bodies, double now, const LidarModel& lidar,
+                    std::mt19937& random) const {
+    const Pose2 T_world_lidar = T_world_base * Pose2{lidar_base.x(), lidar_base.y(), 0.0};
+    ObstacleScan seen = simulatedScan(walls, bodies, T_world_lidar, now + clock, lidar, random);
+    seen.origin = lidar_base;
+    for (Blob& blob : seen.blobs) blob.position += lidar_base;
+    return seen;
+  }
+
   Pose2 T_world_base, T_world_odom;
+  Eigen::Vector2d lidar_base = Eigen::Vector2d::Zero();  // [m] where its lidar sits
   Twist2 twist;
   double clock = 0.0;  // [s] ahead of the others'
   RelativeLocalization localization;
@@ -70,8 +81,7 @@ class Stage {
       for (const Actor& other : actors_) {
         if (&other != &actor) bodies.push_back(other.body());
       }
-      actor.localization.addOwnScan(actor.odometry(),
-                                    simulatedScan(walls_, bodies, actor.T_world_base, now_ + actor.clock, lidar, random_));
+      actor.localization.addOwnScan(actor.odometry(), actor.scan(walls_, bodies, now_, lidar, random_));
     }
     if (talk && ++ticks_ % 2 == 0) {
       for (std::size_t i = 0; i < actors_.size(); ++i) {
@@ -98,6 +108,7 @@ class Stage {
   Pose2 truth(std::size_t i, std::size_t j) const { return actors_[i].T_world_odom.inverse() * actors_[j].T_world_odom; }
 
   LidarModel lidar;
+  double told_span = 0.25;  // [s] of sightings that a message is about
   std::vector<std::vector<PeerEstimate>> estimates;
 
  private:
@@ -106,7 +117,7 @@ class Stage {
     if (from == to || !hears) return;
     Actor &sender = actors_[from], &receiver = actors_[to];
     receiver.localization.addPeerMotion(sender.name, sender.motion(now_));
-    for (const SightReport& report : sender.localization.sights(now_ - 0.25))
+    for (const SightReport& report : sender.localization.sights(now_ + sender.clock - told_span))
       receiver.localization.addPeerSights(sender.name, report);
     for (const Keyframe& keyframe : sender.localization.keyframes()) receiver.localization.addPeerKeyframe(sender.name, keyframe);
   }

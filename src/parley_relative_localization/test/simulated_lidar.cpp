@@ -24,20 +24,12 @@ double segmentRange(const Eigen::Vector2d& from, const Eigen::Vector2d& directio
   return range > 0.0 && where >= 0.0 && where <= 1.0 ? range : kInf;
 }
 
-double bodyRange(const Eigen::Vector2d& from, const Eigen::Vector2d& direction, const Polygon& outline) {
-  double nearest = kInf;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    nearest = std::min(nearest, segmentRange(from, direction, {outline[i], outline[(i + 1) % outline.size()]}));
-  }
-  return nearest;
-}
-
 /// Bins first to last are a blob if they stand off from what is beside them and have the size.
 void addBlob(ObstacleScan& scan, int first, int last) {
   const int count = static_cast<int>(scan.binCount());
   const auto range = [&](int bin) {
-    const double r = scan.ranges[static_cast<std::size_t>((bin + count) % count)];
-    return std::isfinite(r) ? r : scan.range_max;
+    const double r = static_cast<double>(scan.ranges[static_cast<std::size_t>((bin + count) % count)]);
+    return std::isnan(r) ? 0.0 : std::min(r, scan.range_max);
   };
   if (last - first + 1 < kLeastBeams) return;
   if (range(first - 1) <= range(first) + kJump || range(last + 1) <= range(last) + kJump) return;
@@ -57,6 +49,16 @@ void addBlob(ObstacleScan& scan, int first, int last) {
   scan.blobs.push_back({scan.origin + depth * ahead + 0.5 * (low + high) * aside, chord, last - first + 1});
 }
 
+}  // namespace
+
+double bodyRange(const Eigen::Vector2d& from, const Eigen::Vector2d& direction, const Polygon& outline) {
+  double nearest = kInf;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    nearest = std::min(nearest, segmentRange(from, direction, {outline[i], outline[(i + 1) % outline.size()]}));
+  }
+  return nearest;
+}
+
 void findBlobs(ObstacleScan& scan) {
   const int count = static_cast<int>(scan.binCount());
   const auto range = [&](int bin) { return scan.ranges[static_cast<std::size_t>((bin + count) % count)]; };
@@ -72,8 +74,6 @@ void findBlobs(ObstacleScan& scan) {
     first = last + 1;
   }
 }
-
-}  // namespace
 
 WallRange segmentWorld(std::vector<WallSegment> walls) {
   return [walls = std::move(walls)](const Eigen::Vector2d& from, const Eigen::Vector2d& direction, double) {

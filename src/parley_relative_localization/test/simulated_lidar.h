@@ -40,6 +40,12 @@ struct LidarModel {
   double noise = 0.02;  // [m]
 };
 
+/// Range along a unit direction to the nearest side of an outline, +inf past it. [m]
+double bodyRange(const Eigen::Vector2d& from, const Eigen::Vector2d& direction, const Polygon& outline);
+
+/// Fills in `blobs` from `ranges`. What is beside a bin that was not looked at stands off from nothing.
+void findBlobs(ObstacleScan& scan);
+
 /// What the lidar stage would make of a turn of the lidar: ranges, blobs, what is transient.
 ObstacleScan simulatedScan(const WallRange& walls, const std::vector<Body>& bodies, const Pose2& T_world_base, double stamp,
                            const LidarModel& lidar, std::mt19937& random);

@@ -61,8 +61,8 @@ class RelativeLocalization {
 
   /// What a peer without a confirmed pose should be sent, newest first.
   std::vector<Keyframe> keyframes() const;
-  /// The newest scans after `since` in which there were blobs, at most `max_reports`, oldest first; to be sent a few times a
-  /// second while a peer is near.
+  /// Scans after `since` in which there were blobs, at most `max_reports` spread over that time, oldest first; to be sent a few
+  /// times a second while a peer is near. Told of the last second each time, a peer that hears little hears enough.
   std::vector<SightReport> sights(double since) const;
   /// Poses that this robot measured itself and holds for confirmed.
   std::vector<RelativeEdge> edges() const;

@@ -12,7 +12,7 @@ struct RelativeLocalizationOptions {
   int own_keyframes = 6;           // [-]
   int peer_keyframes = 6;          // [-]
   int sent_keyframes = 4;          // [-]
-  int max_reports = 3;             // [-]
+  int max_reports = 4;             // [-]
 
   double sight_window = 6.0;        // [s]
   double sight_noise = 0.03;        // [m]
@@ -68,7 +68,7 @@ struct RelativeLocalizationOptions {
     v.integer("own_keyframes", own_keyframes, "-", 1, 16, "own keyframes in a submap; older ones are forgotten");
     v.integer("peer_keyframes", peer_keyframes, "-", 1, 16, "keyframes held of each peer; older ones are forgotten");
     v.integer("sent_keyframes", sent_keyframes, "-", 1, 16, "newest keyframes that a peer without a confirmed pose needs");
-    v.integer("max_reports", max_reports, "-", 1, 10, "newest scans with blobs that are told in one go");
+    v.integer("max_reports", max_reports, "-", 1, 10, "scans with blobs that are told in one go, more new than old");
     v.number("sight_window", sight_window, "s", 1.0, 30.0, "sightings older than this are not used");
     v.number("sight_noise", sight_noise, "m", 0.005, 0.5, "standard deviation of a robot's middle as seen");
     v.number("sight_gate", sight_gate, "m", 0.05, 1.0, "a blob this near to where the peer should be is the peer");
