@@ -32,9 +32,10 @@ struct Method {
 };
 
 const std::vector<Method>& methods() {
-  static const std::vector<Method> all{{"lattice 4000", 4000, false, 0.0},   {"lattice 100000", 100000, false, 0.0},
-                                       {"RRTConnect 10 ms", 0, false, 0.01}, {"RRTConnect 50 ms", 0, false, 0.05},
-                                       {"RRTConnect 200 ms", 0, false, 0.2}, {"RRT* 200 ms", 0, true, 0.2}};
+  static const std::vector<Method> all{{"lattice 4000", 4000, false, 0.0},     {"lattice 20000", 20000, false, 0.0},
+                                       {"lattice 100000", 100000, false, 0.0}, {"RRTConnect 10 ms", 0, false, 0.01},
+                                       {"RRTConnect 50 ms", 0, false, 0.05},   {"RRTConnect 200 ms", 0, false, 0.2},
+                                       {"RRT* 200 ms", 0, true, 0.2}};
   return all;
 }
 
