@@ -39,7 +39,7 @@ struct PlannerOptions {
   double reverse_speed = 0.8;    // [m/s]
   double stuck_time = 3.0;       // [s]
   double margin_tight = 0.03;    // [m]
-  int narrow_iterations = 4000;  // [-]
+  int narrow_iterations = 20000;  // [-]
 
   template <class Visitor>
   void visit(Visitor& v) {
