@@ -42,11 +42,11 @@ def wrong_in(result):
 
 def run(program, arguments, output):
     """Prints and keeps what the program says; its JSON."""
-    path = output.with_suffix(".json")
+    path = Path(f"{output}.json")
     path.unlink(missing_ok=True)
     command = [str(program), *map(str, arguments), "--json", str(path)]
     print(" ".join(command), flush=True)
-    with output.with_suffix(".log").open("w", encoding="utf-8") as log:
+    with open(f"{output}.log", "w", encoding="utf-8") as log:
         process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
         for line in process.stdout:
             print(line, end="", flush=True)
@@ -67,7 +67,7 @@ def main():
     parser.add_argument("--replayed", type=int, default=200, help="encounters of each log, and three quarters as many elsewhere; half of both where bodies are not "
                              "painted or the log's scans are alone")
     parser.add_argument("--seed", type=int, default=1)
-    given = parser.parse_args()
+    given = parser.parse_intermixed_args()
     worlds = [path for path in given.paths if path.suffix == ".yaml"]
     logs = [path for path in given.paths if path.suffix in (".log", ".gz")]
     if unknown := set(given.paths) - set(worlds) - set(logs):
