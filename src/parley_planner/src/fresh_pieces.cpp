@@ -62,6 +62,25 @@ bool isRestOfWall(const Returns& returns, std::size_t begin, std::size_t end, do
 
 }  // namespace
 
+std::vector<FreshPiece> emergingPieces(const std::vector<DatedReturn>& returns, double longest, double jump) {
+  std::vector<FreshPiece> pieces;
+  for (std::size_t begin = 0; begin < returns.size();) {
+    std::size_t end = begin + 1;
+    bool all_young = returns[begin].young;
+    while (end < returns.size() && std::abs(returns[end].range - returns[end - 1].range) <= jump) {
+      all_young = all_young && returns[end].young;
+      ++end;
+    }
+    const Eigen::Vector2d &first = returns[begin].point, &last = returns[end - 1].point;
+    const double chord = (last - first).norm();
+    const bool hidden = (begin > 0 && returns[begin - 1].range < returns[begin].range) ||
+                        (end < returns.size() && returns[end].range < returns[end - 1].range);
+    if (all_young && hidden && end - begin >= kLeastReturns && chord < longest) pieces.push_back({0.5 * (first + last), chord});
+    begin = end;
+  }
+  return pieces;
+}
+
 std::vector<FreshPiece> freshPieces(const std::vector<DatedReturn>& returns, double longest, double jump) {
   std::vector<FreshPiece> pieces;
   for (std::size_t begin = 0; begin < returns.size();) {

@@ -45,7 +45,8 @@ std::optional<Proposal> Manoeuvres::propose(const ManoeuvreTask& task) const {
   const double off = std::abs(angleBetween(task.start.pose.yaw, firstDirection(task.path)));
   const double speed = task.start.twist.speed;
   if (speed < -kStandingSpeed) return off > 0.5 * kPi ? backOut(task) : std::nullopt;
-  if (speed > kSlowSpeed) return off < kTurnWhileMoving ? driveOn(task, task.start, false, task.path) : std::nullopt;
+  if (speed > kSlowSpeed) return off < kTurnWhileMoving ? driveOn(task, task.start, false, task.path) : stop(task);
+  if (speed > kStandingSpeed && off > kTurnWhileMoving) return stop(task);
   std::optional<Proposal> best;
   if (off < options_.turn_on_spot) best = driveOn(task, task.start, false, task.path);
   if (isUseful(best) || !stands(task.start.twist)) return best;
@@ -76,6 +77,11 @@ std::optional<Proposal> Manoeuvres::driveOn(const ManoeuvreTask& task, const Tra
   GeneratedDrive drive = generator_.along(smooth, start, reverse, task.scene, task.margins, sight);
   if (drive.end == DriveEnd::kInfeasible) return std::nullopt;
   return Proposal{SampledTrajectory(std::move(drive.drive.points)), smooth.points(), drive.end, drive.advance, 0.0};
+}
+
+/// The way has turned back: every metre on is to be driven twice.
+Proposal Manoeuvres::stop(const ManoeuvreTask& task) const {
+  return {brakingTrajectory(task.start, generator_.limits(), options_.time_step), task.path, DriveEnd::kPathEnd, 0.0, 0.0};
 }
 
 std::optional<Proposal> Manoeuvres::turnAndDrive(const ManoeuvreTask& task) const {

@@ -41,6 +41,7 @@ class Manoeuvres {
 
  private:
   std::optional<Proposal> driveOn(const ManoeuvreTask& task, const TrajectoryPoint& start, bool reverse, const Path& path) const;
+  Proposal stop(const ManoeuvreTask& task) const;
   std::optional<Proposal> turnAndDrive(const ManoeuvreTask& task) const;
   std::optional<Proposal> backOut(const ManoeuvreTask& task) const;
   std::size_t squeezeTarget(const Path& fine, const ManoeuvreTask& task) const;

@@ -23,6 +23,8 @@ constexpr double kNever = 1e18;         // [s]
 constexpr double kFreshReach = 0.6;     // [m] round new returns, where ways may be wider than they look
 constexpr double kJump = 0.2;           // [m] of range between neighbours: one thing ends and another begins
 constexpr int kNewTrack = 4;            // scans before a thing's velocity is believed
+constexpr double kYoung = 2.0;          // [s] since first sight
+constexpr double kStandingGrace = 0.3;  // [m] less than on one that drives is enough on one that may start
 constexpr double kTrackRim = 0.5;       // [m] its own returns close the cells round a thing off up to here
 
 int cost(double metres) { return static_cast<int>(std::lround(metres / kUnit)); }
@@ -216,25 +218,32 @@ void SightLaw::observe(const Surroundings& surroundings, const ObstacleScan& sca
     }
   }
   gaps_ = spread(sources, prices, kFar);
-  addSeen(tracks, freshPieces(dated(scan, T_odom_scan, now), options_.intruder_length, kJump), prices, pose, now);
+  const std::vector<DatedReturn> returns = dated(scan, T_odom_scan, now);
+  addSeen(tracks, returns, prices, pose, now);
   updated_at_ = now;
 }
 
 /// How far off what can be seen is. It is there already: that ways are narrow makes it no slower to meet.
-void SightLaw::addSeen(const std::vector<TrackedObject>& tracks, const std::vector<FreshPiece>& pieces, const Mask& prices,
+void SightLaw::addSeen(const std::vector<TrackedObject>& tracks, const std::vector<DatedReturn>& returns, const Mask& prices,
                        const Pose2& pose, double now) {
   Costs sources(gaps_.size(), 2 * kFar);
-  bool any = !pieces.empty();
+  const std::vector<FreshPiece> fresh = freshPieces(returns, options_.intruder_length, kJump);
+  const std::vector<FreshPiece> emerging = emergingPieces(returns, options_.intruder_length, kJump);
+  bool any = !fresh.empty() || !emerging.empty();
   for (const TrackedObject& track : tracks) {
     const Eigen::Vector2d there = track.position + track.velocity * (now - track.stamp);
     const Eigen::Vector2d towards = (pose.position() - there).normalized();
     // What stands now may drive off the next moment: only what clearly leaves is no danger.
     const bool may_come = track.has_moved && track.velocity.dot(towards) > -kLeaving;
     if (!may_come && track.observations >= kNewTrack) continue;
-    addIntruder(there, track.radius + kTrackRim, prices, sources);
+    addIntruder(there, track.radius + kTrackRim, 0.0, prices, sources);
     any = true;
   }
-  for (const FreshPiece& piece : pieces) addIntruder(piece.middle, 0.5 * piece.chord + kTrackRim, prices, sources);
+  const auto addPieces = [&](const std::vector<FreshPiece>& pieces, double grace) {
+    for (const FreshPiece& piece : pieces) addIntruder(piece.middle, 0.5 * piece.chord + kTrackRim, grace, prices, sources);
+  };
+  addPieces(fresh, 0.0);
+  addPieces(emerging, kStandingGrace);
   if (!any) return;
   Mask even(prices.size());
   std::transform(prices.begin(), prices.end(), even.begin(), [](std::uint8_t p) { return p ? std::uint8_t{1} : p; });
@@ -275,7 +284,7 @@ void SightLaw::followLost(const std::vector<TrackedObject>& tracks, const Mask& 
   }
 }
 
-bool SightLaw::isFresh(const Eigen::Vector2d& p_odom, double now) const {
+double SightLaw::ageOf(const Eigen::Vector2d& p_odom, double now) const {
   const Eigen::Vector2i cell = frame_.cellOf(p_odom);
   double oldest = kNever;
   for (int y = cell.y() - 1; y <= cell.y() + 1; ++y) {
@@ -283,7 +292,7 @@ bool SightLaw::isFresh(const Eigen::Vector2d& p_odom, double now) const {
       if (frame_.contains({x, y})) oldest = std::min(oldest, dates_[static_cast<std::size_t>(frame_.indexOf({x, y}))]);
     }
   }
-  return oldest < kNever && oldest > now - options_.proof_time;
+  return oldest < kNever ? now - oldest : kNever;
 }
 
 std::vector<DatedReturn> SightLaw::dated(const ObstacleScan& scan, const Pose2& T_odom_scan, double now) const {
@@ -292,12 +301,13 @@ std::vector<DatedReturn> SightLaw::dated(const ObstacleScan& scan, const Pose2& 
     const double range = static_cast<double>(scan.ranges[bin]);
     if (!std::isfinite(range)) continue;
     const Eigen::Vector2d p_odom = T_odom_scan * scan.pointAt(bin, range);
-    returns.push_back({p_odom, range, isFresh(p_odom, now)});
+    const double age = ageOf(p_odom, now);
+    returns.push_back({p_odom, range, age < options_.proof_time, age < kYoung});
   }
   return returns;
 }
 
-void SightLaw::addIntruder(const Eigen::Vector2d& there, double reach, const Mask& prices, Costs& sources) const {
+void SightLaw::addIntruder(const Eigen::Vector2d& there, double reach, double grace, const Mask& prices, Costs& sources) const {
   const Eigen::Vector2i low = frame_.cellOf(there - Eigen::Vector2d::Constant(reach));
   const Eigen::Vector2i high = frame_.cellOf(there + Eigen::Vector2d::Constant(reach));
   for (int y = low.y(); y <= high.y(); ++y) {
@@ -306,7 +316,7 @@ void SightLaw::addIntruder(const Eigen::Vector2d& there, double reach, const Mas
       const double distance = (frame_.centerOf({x, y}) - there).norm();
       if (distance > reach) continue;
       int& known = sources[static_cast<std::size_t>(frame_.indexOf({x, y}))];
-      known = std::min(known, cost(distance));
+      known = std::min(known, cost(distance + grace));
     }
   }
 }

@@ -62,17 +62,17 @@ class SightLaw {
   Mask hidden(const Mask& visible) const;
   /// Driving distance from the nearest source, in units of a tenth of a cell, through cells whose price is not zero.
   Costs spread(const Costs& sources, const Mask& prices, int most) const;
-  /// Whether what is in a cell has come into sight so lately that it may be a robot on its way.
-  bool isFresh(const Eigen::Vector2d& p_odom, double now) const;
+  /// How long ago what is at a place came into sight; very large where nothing is. [s]
+  double ageOf(const Eigen::Vector2d& p_odom, double now) const;
   std::vector<DatedReturn> dated(const ObstacleScan& scan, const Pose2& T_odom_scan, double now) const;
   /// How far those that may be in `from` can have driven since the last time, where they are not seen now.
   Mask driven(const Mask& from, const Mask& prices, const Mask& unseen, double elapsed) const;
   /// Keeps track of where robots that have been seen may be, out of sight.
   void followLost(const std::vector<TrackedObject>& tracks, const Mask& prices, const Mask& unseen, double now);
   /// Something seen at `there` may drive off from all round it: lowers `sources` within `reach` [m].
-  void addSeen(const std::vector<TrackedObject>& tracks, const std::vector<FreshPiece>& pieces, const Mask& prices,
+  void addSeen(const std::vector<TrackedObject>& tracks, const std::vector<DatedReturn>& returns, const Mask& prices,
                const Pose2& pose, double now);
-  void addIntruder(const Eigen::Vector2d& there, double reach, const Mask& prices, Costs& sources) const;
+  void addIntruder(const Eigen::Vector2d& there, double reach, double grace, const Mask& prices, Costs& sources) const;
 
   SightLawOptions options_;
   MotionLimits limits_;

@@ -138,6 +138,20 @@ TEST_F(PlannerTest, TurnsOnTheSpotFirst) {
   EXPECT_TRUE(plan(1.0).keep_committed);
 }
 
+TEST_F(PlannerTest, StopsAtOnceWhenTheRouteTurnsBack) {
+  committed_ = plan(0.0).trajectory;
+  const TrajectoryPoint there = committed_.at(1.0);
+  odometry_.pose = there.pose;
+  odometry_.twist = there.twist;
+  goal_ = {1.0, 5.0};
+  route_.points = {there.pose.position(), goal_};
+  const PlanResult result = plan(1.0);
+  ASSERT_FALSE(result.keep_committed);
+  EXPECT_EQ(motionFlaw(result.trajectory.points(), robotLimits()), "");
+  const double least = there.twist.speed * there.twist.speed / (2.0 * robotLimits().acceleration);
+  EXPECT_LT(result.trajectory.length(), 1.4 * least + 0.1);
+}
+
 TEST_F(PlannerTest, StartsFromTheOdometryWhenItIsOffTheTrajectory) {
   committed_ = plan(0.0).trajectory;
   odometry_.pose = {3.2, 5.5, 0.0};

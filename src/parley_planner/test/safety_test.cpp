@@ -120,6 +120,31 @@ TEST(FreshPieces, AThingBesideAWallIsOne) {
   EXPECT_EQ(freshPieces(returns, 1.2, 0.2).size(), 1U);
 }
 
+/// A thing at 3 m of which the part right of `hidden_until` [m] is behind a wall at 2 m.
+std::vector<DatedReturn> behindACorner(double hidden_until, double width, bool young) {
+  std::vector<DatedReturn> returns = wall(-1.0, hidden_until * 2.0 / 3.0, 2.0, 5.0, 5.0);
+  for (const DatedReturn& r : wall(hidden_until, hidden_until + width, 3.0, 5.0, 5.0)) {
+    returns.push_back(r);
+    returns.back().young = young;
+  }
+  return returns;
+}
+
+TEST(EmergingPieces, WhatIsHalfHiddenBehindACornerIsOne) {
+  const std::vector<FreshPiece> pieces = emergingPieces(behindACorner(0.0, 0.3, true), 1.2, 0.2);
+  ASSERT_EQ(pieces.size(), 1U);
+  EXPECT_LT((pieces[0].middle - Eigen::Vector2d(0.15, 3.0)).norm(), 0.05);
+}
+
+TEST(EmergingPieces, OldThingsLongOnesAndThoseInFrontAreNone) {
+  EXPECT_TRUE(emergingPieces(behindACorner(0.0, 0.3, false), 1.2, 0.2).empty());
+  EXPECT_TRUE(emergingPieces(behindACorner(0.0, 2.0, true), 1.2, 0.2).empty());
+  std::vector<DatedReturn> free_standing = wall(-0.3, 0.3, 2.0, 5.0, 5.0);
+  for (DatedReturn& r : free_standing) r.young = true;
+  EXPECT_TRUE(emergingPieces(free_standing, 1.2, 0.2).empty());
+  EXPECT_TRUE(emergingPieces({}, 1.2, 0.2).empty());
+}
+
 }  // namespace parley
 
 int main(int argc, char** argv) {
