@@ -62,6 +62,7 @@ double depthOfBobsVisit(Variant variant) {
     if (pose.y > 5.0 && pose.y < 9.0 && pose.x < 18.0) depth = std::max(depth, pose.x - 9.0);
   });
   EXPECT_EQ(bob.output.state, DriveState::kArrived);
+  EXPECT_LE(bob.output.route_switches, 2);  // what he sees himself, and what he is told
   return depth;
 }
 

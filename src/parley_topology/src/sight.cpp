@@ -55,7 +55,7 @@ Walk Sight::walk(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double from
     const int x = static_cast<int>(std::floor(x0 + i * dx)), y = static_cast<int>(std::floor(y0 + i * dy));
     const double room = metersOf(map_.distance(x, y), shape_.reach) - shape_.grown_radius - kFieldSlack;
     if (room > 0.0) {
-      i += static_cast<int>(room / (kFieldStretch * stride));  // all samples up to there are wide
+      i += static_cast<int>(std::min<double>(steps, room / (kFieldStretch * stride)));  // all samples up to there are wide
     } else if (!(map_.flags(x, y) & kPassable)) {
       return {false, {x, y}};
     }

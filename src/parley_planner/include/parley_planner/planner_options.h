@@ -36,9 +36,9 @@ struct PlannerOptions {
   double sight_least_speed = 0.4;     // [m/s]
 
   // Getting unstuck
-  double reverse_speed = 0.8;    // [m/s]
-  double stuck_time = 3.0;       // [s]
-  double margin_tight = 0.03;    // [m]
+  double reverse_speed = 0.8;     // [m/s]
+  double stuck_time = 3.0;        // [s]
+  double margin_tight = 0.03;     // [m]
   int narrow_iterations = 20000;  // [-]
 
   template <class Visitor>
