@@ -51,6 +51,11 @@ bool adjoins(const Returns& returns, std::size_t known, std::size_t known_before
   return (returns[fresh].point - returns[known].point).norm() < 2.0 * spacing + kNoise;
 }
 
+/// Whether `nearer` is right beside `other` and before it.
+bool hides(const DatedReturn& nearer, const DatedReturn& other) {
+  return std::abs(nearer.bin - other.bin) <= 2 && nearer.range < other.range;
+}
+
 bool isRestOfWall(const Returns& returns, std::size_t begin, std::size_t end, double jump) {
   const std::size_t before = knownUntil(returns, begin, false, jump), after = knownUntil(returns, end - 1, true, jump);
   const bool goes_on_after = before + 1 < begin && adjoins(returns, begin - 1, begin - 2, begin) &&
@@ -73,9 +78,10 @@ std::vector<FreshPiece> emergingPieces(const std::vector<DatedReturn>& returns, 
     }
     const Eigen::Vector2d &first = returns[begin].point, &last = returns[end - 1].point;
     const double chord = (last - first).norm();
-    const bool hidden = (begin > 0 && returns[begin - 1].range < returns[begin].range) ||
-                        (end < returns.size() && returns[end].range < returns[end - 1].range);
-    if (all_young && hidden && end - begin >= kLeastReturns && chord < longest) pieces.push_back({0.5 * (first + last), chord});
+    const bool is_hidden = (begin > 0 && hides(returns[begin - 1], returns[begin])) ||
+                           (end < returns.size() && hides(returns[end], returns[end - 1]));
+    if (all_young && is_hidden && end - begin >= kLeastReturns && chord < longest)
+      pieces.push_back({0.5 * (first + last), chord});
     begin = end;
   }
   return pieces;

@@ -12,6 +12,7 @@ struct DatedReturn {
   double range = 0.0;                               // [m]
   bool fresh = false;
   bool young = false;  // it has been in sight for a short while, or is fresh
+  int bin = 0;         // [-] of the scan
 };
 
 /// What may be a robot, or as much of one as can be seen.

@@ -302,7 +302,7 @@ std::vector<DatedReturn> SightLaw::dated(const ObstacleScan& scan, const Pose2& 
     if (!std::isfinite(range)) continue;
     const Eigen::Vector2d p_odom = T_odom_scan * scan.pointAt(bin, range);
     const double age = ageOf(p_odom, now);
-    returns.push_back({p_odom, range, age < options_.proof_time, age < kYoung});
+    returns.push_back({p_odom, range, age < options_.proof_time, age < kYoung, static_cast<int>(bin)});
   }
   return returns;
 }

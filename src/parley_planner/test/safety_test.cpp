@@ -127,6 +127,7 @@ std::vector<DatedReturn> behindACorner(double hidden_until, double width, bool y
     returns.push_back(r);
     returns.back().young = young;
   }
+  for (std::size_t i = 0; i < returns.size(); ++i) returns[i].bin = static_cast<int>(i);
   return returns;
 }
 
@@ -142,6 +143,9 @@ TEST(EmergingPieces, OldThingsLongOnesAndThoseInFrontAreNone) {
   std::vector<DatedReturn> free_standing = wall(-0.3, 0.3, 2.0, 5.0, 5.0);
   for (DatedReturn& r : free_standing) r.young = true;
   EXPECT_TRUE(emergingPieces(free_standing, 1.2, 0.2).empty());
+  std::vector<DatedReturn> apart = behindACorner(0.0, 0.3, true);
+  for (DatedReturn& r : apart) r.bin += r.young ? 5 : 0;  // free space between it and the corner
+  EXPECT_TRUE(emergingPieces(apart, 1.2, 0.2).empty());
   EXPECT_TRUE(emergingPieces({}, 1.2, 0.2).empty());
 }
 

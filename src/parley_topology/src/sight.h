@@ -36,9 +36,6 @@ class Sight {
   /// `tolerance` [m] and not behind something occupied; nullopt if there is none.
   std::optional<Eigen::Vector2d> nearestWith(CellFlag flag, const Eigen::Vector2d& p, double tolerance) const;
 
-  /// How far from an edge the map has a say in its measures. [m]
-  double influence() const { return options_.clearance_cap; }
-
  private:
   std::uint8_t flagsAt(const Eigen::Vector2d& p) const { return map_.flags(map_.cellOf(p.x()), map_.cellOf(p.y())); }
   double distanceAt(const Eigen::Vector2d& p) const {
