@@ -2,10 +2,9 @@
 // How often, how soon and how well robots that meet find each other, and whether robots elsewhere ever believe they do.
 #include <cstdio>
 #include <fstream>
-#include <map>
-#include <stdexcept>
 #include <string>
 
+#include "command_line.h"
 #include "encounter.h"
 #include "tally.h"
 
@@ -23,30 +22,16 @@ struct Arguments {
 Arguments parse(int argc, char** argv) {
   Arguments arguments;
   StudyOptions& study = arguments.study;
-  const std::map<std::string, double*> numbers{{"--range", &study.lidar.range}, {"--noise", &study.lidar.noise},
-                                               {"--drift", &study.drift},       {"--offset", &study.offset},
-                                               {"--loss", &study.loss},         {"--speed", &study.speed}};
-  const std::map<std::string, int*> counts{{"--encounters", &arguments.encounters},
-                                           {"--elsewhere", &arguments.elsewhere},
-                                           {"--clutter", &study.clutter},
-                                           {"--beams", &study.lidar.beams}};
-  for (int i = 1; i < argc; ++i) {
-    const std::string key = argv[i];
-    const bool has_value = i + 1 < argc;
-    if (numbers.count(key) > 0 && has_value) {
-      *numbers.at(key) = std::stod(argv[++i]);
-    } else if (counts.count(key) > 0 && has_value) {
-      *counts.at(key) = std::stoi(argv[++i]);
-    } else if (key == "--seed" && has_value) {
-      arguments.seed = static_cast<unsigned>(std::stoul(argv[++i]));
-    } else if (key == "--json" && has_value) {
-      arguments.json = argv[++i];
-    } else if (key.rfind("--", 0) == 0) {
-      throw std::invalid_argument("unknown argument " + key);
-    } else {
-      arguments.worlds.push_back(key);
-    }
-  }
+  CommandLine line;
+  line.numbers = {{"--range", &study.lidar.range}, {"--noise", &study.lidar.noise}, {"--drift", &study.drift},
+                  {"--offset", &study.offset},     {"--loss", &study.loss},         {"--speed", &study.speed}};
+  line.counts = {{"--encounters", &arguments.encounters},
+                 {"--elsewhere", &arguments.elsewhere},
+                 {"--clutter", &study.clutter},
+                 {"--beams", &study.lidar.beams}};
+  arguments.worlds = line.parse(argc, argv);
+  arguments.seed = line.seed;
+  arguments.json = line.json;
   return arguments;
 }
 

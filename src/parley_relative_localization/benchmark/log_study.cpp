@@ -2,10 +2,10 @@
 // Whether robots made of stretches of real logs ever believe a wrong pose, how often they find each other, and how well.
 #include <cstdio>
 #include <fstream>
-#include <map>
 #include <stdexcept>
 #include <string>
 
+#include "command_line.h"
 #include "log_replay.h"
 #include "tally.h"
 
@@ -23,33 +23,19 @@ struct Arguments {
 Arguments parse(int argc, char** argv) {
   Arguments arguments;
   StudyOptions& study = arguments.replay.study;
-  const std::map<std::string, double*> numbers{{"--range", &study.lidar.range},
-                                               {"--drift", &study.drift},
-                                               {"--offset", &study.offset},
-                                               {"--loss", &study.loss},
-                                               {"--speed", &study.speed}};
-  const std::map<std::string, int*> counts{{"--encounters", &arguments.encounters}, {"--elsewhere", &arguments.elsewhere}};
-  for (int i = 1; i < argc; ++i) {
-    const std::string key = argv[i];
-    const bool has_value = i + 1 < argc;
-    if (numbers.count(key) > 0 && has_value) {
-      *numbers.at(key) = std::stod(argv[++i]);
-    } else if (counts.count(key) > 0 && has_value) {
-      *counts.at(key) = std::stoi(argv[++i]);
-    } else if (key == "--seed" && has_value) {
-      arguments.seed = static_cast<unsigned>(std::stoul(argv[++i]));
-    } else if (key == "--json" && has_value) {
-      arguments.json = argv[++i];
-    } else if (key == "--unpainted") {
-      arguments.replay.paint = false;
-    } else if (key == "--scans-alone") {
-      arguments.replay.scans_alone = true;
-    } else if (key.rfind("--", 0) == 0) {
-      throw std::invalid_argument("unknown argument " + key);
-    } else {
-      arguments.logs.push_back(key);
-    }
-  }
+  bool unpainted = false;
+  CommandLine line;
+  line.numbers = {{"--range", &study.lidar.range},
+                  {"--drift", &study.drift},
+                  {"--offset", &study.offset},
+                  {"--loss", &study.loss},
+                  {"--speed", &study.speed}};
+  line.counts = {{"--encounters", &arguments.encounters}, {"--elsewhere", &arguments.elsewhere}};
+  line.flags = {{"--unpainted", &unpainted}, {"--scans-alone", &arguments.replay.scans_alone}};
+  arguments.logs = line.parse(argc, argv);
+  arguments.seed = line.seed;
+  arguments.json = line.json;
+  arguments.replay.paint = !unpainted;
   if (arguments.logs.empty()) throw std::invalid_argument("no log given: log_study [OPTION VALUE]... LOG[.gz]...");
   return arguments;
 }
