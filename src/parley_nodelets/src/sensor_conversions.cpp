@@ -24,6 +24,13 @@ ros::Time toRosTime(double seconds) {
   return ros::Time(std::min(seconds, kLatest - 1.0));
 }
 
+std_msgs::Header headerOf(double stamp, const std::string& frame) {
+  std_msgs::Header header;
+  header.stamp = toRosTime(stamp);
+  header.frame_id = frame;
+  return header;
+}
+
 geometry_msgs::Quaternion toQuaternion(double yaw) {
   geometry_msgs::Quaternion rotation;
   rotation.z = std::sin(0.5 * yaw);

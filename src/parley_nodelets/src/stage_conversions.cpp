@@ -9,13 +9,6 @@
 namespace parley {
 namespace {
 
-std_msgs::Header headerOf(double stamp, const std::string& frame) {
-  std_msgs::Header header;
-  header.stamp = toRosTime(stamp);
-  header.frame_id = frame;
-  return header;
-}
-
 geometry_msgs::Point toPoint(const Eigen::Vector2d& p) {
   geometry_msgs::Point point;
   point.x = p.x();

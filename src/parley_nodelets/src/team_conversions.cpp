@@ -11,13 +11,6 @@
 namespace parley {
 namespace {
 
-std_msgs::Header headerOf(double stamp, const std::string& frame) {
-  std_msgs::Header header;
-  header.stamp = toRosTime(stamp);
-  header.frame_id = frame;
-  return header;
-}
-
 std::optional<Pose2> fromPose(const geometry_msgs::Pose& message) {
   const std::optional<Attitude> attitude = attitudeOf(message.orientation);
   if (!attitude || !std::isfinite(message.position.x) || !std::isfinite(message.position.y)) return std::nullopt;

@@ -4,6 +4,7 @@
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/PointCloud2.h>
+#include <std_msgs/Header.h>
 
 #include <Eigen/Geometry>
 #include <optional>
@@ -16,6 +17,7 @@ namespace parley {
 
 /// ROS time of seconds; outside of what ros::Time can hold, the nearest it can.
 ros::Time toRosTime(double seconds);
+std_msgs::Header headerOf(double stamp, const std::string& frame);
 
 geometry_msgs::Quaternion toQuaternion(double yaw);
 geometry_msgs::Pose toPose(const Pose2& pose);
