@@ -86,6 +86,12 @@ bool Plausibility::holds(const TrajectoryMessage& trajectory) const {
   return !trajectory.poses.empty() && trajectory.step > 0.0 && std::isfinite(trajectory.start);
 }
 
+bool Plausibility::holds(const IntentMessage& intent) const {
+  return intent.priority >= 0.0 && intent.depth >= 0 && intent.depth <= kMaxDepth && !intent.way.empty() &&
+         intent.way.size() <= kMaxWay &&
+         std::all_of(intent.way.begin(), intent.way.end(), [](const Eigen::Vector2d& corner) { return isPlace(corner); });
+}
+
 bool Plausibility::holds(const Conflict& conflict) const {
   return conflict.cost >= 0.0 && conflict.lease >= 0.0 && (!conflict.place || isPlace(*conflict.place));
 }

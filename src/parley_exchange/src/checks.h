@@ -13,6 +13,7 @@ struct Plausibility {
 
   bool holds(const Beacon& beacon) const;
   bool holds(const TrajectoryMessage& trajectory) const;
+  bool holds(const IntentMessage& intent) const;
   bool holds(const Conflict& conflict) const;
   bool holds(const ObservationMessage& observations) const;
   /// The body as well. Kinds that are not known hold.

@@ -122,6 +122,13 @@ std::string text(const TrajectoryMessage& trajectory) {
   return line;
 }
 
+std::string text(const IntentMessage& intent) {
+  std::string line =
+      "intent priority=" + number(intent.priority, 1) + format(" holder=%08x depth=%d way=", intent.holder, intent.depth);
+  for (const Eigen::Vector2d& corner : intent.way) line += number(corner.x(), 2) + "," + number(corner.y(), 2) + ";";
+  return line;
+}
+
 std::string text(const Conflict& conflict) {
   std::string line = format("conflict peer=%08x kind=%s round=%d cost=", conflict.peer, nameOf(conflict.kind), conflict.round) +
                      number(conflict.cost, 1) + " lease=" + number(conflict.lease, 1);
@@ -153,6 +160,7 @@ std::string describe(const PacketContent& content) {
   std::string lines =
       format("stamp=%u unknown=%d malformed=%d\n", content.stamp, content.unknown_sections, content.malformed_sections);
   if (content.trajectory) lines += text(*content.trajectory) + "\n";
+  if (content.intent) lines += text(*content.intent) + "\n";
   if (content.conflicts && content.conflicts->empty()) lines += "conflict none\n";
   if (content.conflicts) {
     for (const Conflict& conflict : *content.conflicts) lines += text(conflict) + "\n";

@@ -81,6 +81,17 @@ bool Exchange::setTrajectory(const SampledTrajectory& trajectory, DriveState sta
   return true;
 }
 
+bool Exchange::setIntent(const IntentMessage& intent) {
+  const Plausibility plausible{core_->options.max_speed, core_->options.max_turn_rate};
+  if (!plausible.holds(intent)) {
+    ++core_->counters.inputs_refused;
+    return false;
+  }
+  core_->pace.intentIs(intent);
+  core_->intent = intent;
+  return true;
+}
+
 bool Exchange::setConflicts(const std::vector<Conflict>& conflicts) {
   const Plausibility plausible{core_->options.max_speed, core_->options.max_turn_rate};
   const bool usable = conflicts.size() <= kMaxConflicts &&

@@ -49,6 +49,7 @@ class Exchange::Core {
   DriveState state = DriveState::kStopped;
   DriveState trajectory_state = DriveState::kStopped;
   Pace pace;
+  std::optional<IntentMessage> intent;  // goes with each trajectory
   std::optional<ObservationMessage> observations;
   double observation_stamp = -1e9;       // [s]
   double observation_sent_stamp = -1e9;  // [s] of the last that went out

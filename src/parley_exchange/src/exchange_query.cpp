@@ -39,6 +39,12 @@ std::optional<PeerTrajectory> Exchange::trajectoryOf(RobotId peer, double now) c
   return known != nullptr ? std::make_optional(parley::trajectoryOf(*known, now)) : std::nullopt;
 }
 
+std::optional<PeerIntent> Exchange::intentOf(RobotId peer) const {
+  const Peer* known = peerWith(core_->peers, peer, &Peer::intent);
+  if (known == nullptr) return std::nullopt;
+  return PeerIntent{known->intent->received, known->intent->message};
+}
+
 std::optional<PeerConflicts> Exchange::conflictsOf(RobotId peer) const {
   const Peer* known = peerWith(core_->peers, peer, &Peer::conflicts);
   if (known == nullptr) return std::nullopt;

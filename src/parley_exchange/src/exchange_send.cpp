@@ -49,6 +49,10 @@ PacketContent Exchange::Core::compose(const Agenda& agenda, double budget, Agend
     content.trajectory = trajectoryMessage(pace.trajectory(), trajectory_state, now);
     done.trajectory = fits(content, budget);
     if (!done.trajectory) content.trajectory.reset();
+    if (done.trajectory && intent) {
+      content.intent = intent;
+      if (!fits(content, budget)) content.intent.reset();
+    }
   }
   if (agenda.conflicts) {
     content.conflicts = pace.conflicts();

@@ -14,6 +14,7 @@ constexpr int kConflictSends = 3;          // [-] times a change of mind is sent
 constexpr double kTogether = 0.4;          // [-] what is due within this part of its period goes along
 constexpr double kStep = 0.25;             // [s] of trajectories on the air, longer for very long ones
 constexpr double kYawTolerance = 0.1;      // [rad]
+constexpr double kWayTolerance = 1.0;      // [m]
 constexpr double kSlack = 1e-6;            // [s]
 
 /// Whether something that is due every `period` seconds is due now, or soon enough to go with something else.
@@ -22,6 +23,15 @@ bool isDue(double last, double period, double now, bool early) {
 }
 
 }  // namespace
+
+void Pace::intentIs(const IntentMessage& intent) { intent_ = intent; }
+
+bool Pace::intentChanged() const {
+  const IntentMessage &a = intent_, &b = sent_intent_;
+  if (a.way.empty()) return false;
+  if (b.way.empty() || a.holder != b.holder || a.depth != b.depth || a.priority != b.priority) return true;
+  return (a.way.back() - b.way.back()).norm() > kWayTolerance;
+}
 
 void Pace::setConflicts(const std::vector<Conflict>& conflicts) {
   const auto same = [](const Conflict& a, const Conflict& b) {
@@ -56,7 +66,7 @@ Agenda Pace::agenda(double now, double beacon_rate) const {
   agenda.beacon = isDue(beacon_time_, beacon_period, now, false);
   agenda.conflicts = conflict_sends_ > 0 && isDue(conflict_time_, kConflictInterval, now, false);
   const bool may = has_trajectory && isDue(trajectory_time_, 1.0 / options_.trajectory_rate_max, now, false);
-  agenda.trajectory = may && (isDue(trajectory_time_, 1.0 / options_.trajectory_rate_min, now, false) || trajectoryChanged(now));
+  agenda.trajectory = may && (isDue(trajectory_time_, 1.0 / options_.trajectory_rate_min, now, false) || trajectoryChanged(now) || intentChanged());
   if (agenda.empty()) return agenda;
   agenda.trajectory = agenda.trajectory || (may && isDue(trajectory_time_, 1.0 / options_.trajectory_rate_min, now, true));
   agenda.beacon = agenda.beacon || isDue(beacon_time_, beacon_period, now, true);
@@ -69,6 +79,7 @@ void Pace::sent(const Agenda& done, double now) {
   if (done.trajectory) {
     trajectory_time_ = now;
     sent_trajectory_ = trajectory_;
+    sent_intent_ = intent_;
   }
   if (done.conflicts) {
     conflict_time_ = now;

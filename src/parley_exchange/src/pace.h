@@ -25,6 +25,8 @@ class Pace {
   Pace(const ExchangeOptions& options, RobotId self) : options_(options), self_(self) {}
 
   void setTrajectory(const SampledTrajectory& trajectory) { trajectory_ = trajectory; }
+  /// A change of right of way, or of the way by more than a little, makes the trajectory due again.
+  void intentIs(const IntentMessage& intent);
   void setConflicts(const std::vector<Conflict>& conflicts);
 
   /// `beacon_rate` [Hz] as needed now.
@@ -37,11 +39,13 @@ class Pace {
 
  private:
   bool trajectoryChanged(double now) const;
+  bool intentChanged() const;
   double jitter() const;
 
   ExchangeOptions options_;
   RobotId self_;
   SampledTrajectory trajectory_, sent_trajectory_;
+  IntentMessage intent_, sent_intent_;
   std::vector<Conflict> conflicts_;
   int conflict_sends_ = 0;         // [-] left to be sent soon
   double trajectory_time_ = -1e9;  // [s] when it was last sent

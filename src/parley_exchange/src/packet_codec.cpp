@@ -8,7 +8,7 @@
 namespace parley {
 namespace {
 
-enum class SectionType { kBeacon = 1, kEchoes, kDigest, kTrajectory, kConflicts, kObservations, kRecords };
+enum class SectionType { kBeacon = 1, kEchoes, kDigest, kTrajectory, kConflicts, kObservations, kRecords, kIntent };
 
 constexpr int kMaxSections = 48;
 
@@ -86,6 +86,8 @@ bool decodeSection(PacketContent& content, int type, const BitReader& reader) {
       return take(content.digest, decodeDigest(reader));
     case SectionType::kTrajectory:
       return take(content.trajectory, decodeTrajectory(reader));
+    case SectionType::kIntent:
+      return take(content.intent, decodeIntent(reader));
     case SectionType::kConflicts:
       return take(content.conflicts, decodeConflicts(reader));
     case SectionType::kObservations:
@@ -103,6 +105,7 @@ Bytes encodePacket(const PacketContent& content) {
   Bytes packet;
   for (int shift = 24; shift >= 0; shift -= 8) packet.push_back(static_cast<std::uint8_t>(content.stamp >> shift));
   if (content.trajectory) append(packet, SectionType::kTrajectory, *content.trajectory);
+  if (content.intent) append(packet, SectionType::kIntent, *content.intent);
   if (content.conflicts) append(packet, SectionType::kConflicts, *content.conflicts);
   if (content.beacon) append(packet, SectionType::kBeacon, *content.beacon);
   if (!content.echoes.empty()) append(packet, SectionType::kEchoes, content.echoes);
@@ -154,6 +157,7 @@ SectionBytes sectionBytes(const Bytes& plain) {
       case SectionType::kTrajectory:
         sum.trajectory += size;
         break;
+      case SectionType::kIntent:
       case SectionType::kConflicts:
         sum.conflict += size;
         break;

@@ -30,6 +30,7 @@ struct Peer {
   Knowledge knowledge;
   std::optional<Latest<Beacon>> beacon;
   std::optional<Latest<TrajectoryMessage>> trajectory;
+  std::optional<Latest<IntentMessage>> intent;
   std::optional<Latest<std::vector<Conflict>>> conflicts;
   std::optional<Latest<ObservationMessage>> observations;
   double heard_there = 0.0;    // [-]

@@ -22,6 +22,7 @@ constexpr Quantity kAcceleration{0.1, 8, false};      // [m/s^2]
 constexpr Quantity kTurnAcceleration{0.2, 8, false};  // [rad/s^2]
 constexpr Quantity kHeard{1.0 / 15.0, 4, false};      // [-]
 constexpr Quantity kCost{0.1, 12, false};             // [-]
+constexpr Quantity kCorner{0.05, 18, true};           // [m]
 constexpr Quantity kLease{0.1, 7, false};             // [s]
 constexpr Quantity kRange{0.005, 12, false};          // [m]
 constexpr int kBearingBits = 12;                      // [-]
@@ -143,6 +144,47 @@ std::optional<std::vector<DigestEntry>> decodeDigest(BitReader reader) {
     }
   }
   return reader.ok() ? std::make_optional(digest) : std::nullopt;
+}
+
+void encode(BitWriter& writer, const IntentMessage& intent) {
+  assert(!intent.way.empty() && intent.way.size() <= kMaxWay);
+  std::vector<std::int32_t> steps;
+  for (std::size_t i = 1; i < intent.way.size(); ++i) {
+    for (const int axis : {0, 1}) {
+      const std::int64_t step = codeOf(intent.way[i][axis], kCorner) - codeOf(intent.way[i - 1][axis], kCorner);
+      steps.push_back(static_cast<std::int32_t>(step));
+    }
+  }
+  const int order = bestOrder(steps);
+  write(writer, intent.priority, kCost);
+  writer.bits(intent.holder, 32);
+  writer.bits(static_cast<std::uint64_t>(std::clamp(intent.depth, 0, kMaxDepth)), 4);
+  writer.bits(intent.way.size(), 4);
+  writer.bits(static_cast<std::uint64_t>(order), 3);
+  write(writer, intent.way.front().x(), kCorner);
+  write(writer, intent.way.front().y(), kCorner);
+  for (const std::int32_t step : steps) writer.signedGolomb(step, order);
+}
+
+std::optional<IntentMessage> decodeIntent(BitReader reader) {
+  constexpr std::int64_t kFarthest = std::int64_t{1} << (kCorner.bits - 1);
+  IntentMessage intent;
+  intent.priority = read(reader, kCost);
+  intent.holder = static_cast<RobotId>(reader.bits(32));
+  intent.depth = static_cast<int>(reader.bits(4));
+  const std::size_t count = reader.bits(4);
+  const int order = static_cast<int>(reader.bits(3));
+  std::int64_t x = readSigned(reader, kCorner.bits);
+  std::int64_t y = readSigned(reader, kCorner.bits);
+  for (std::size_t i = 0; i < count && reader.ok(); ++i) {
+    if (i > 0) {
+      x += reader.signedGolomb(order);
+      y += reader.signedGolomb(order);
+    }
+    if (std::max(std::abs(x), std::abs(y)) >= kFarthest) return std::nullopt;
+    intent.way.emplace_back(static_cast<double>(x) * kCorner.step, static_cast<double>(y) * kCorner.step);
+  }
+  return reader.ok() && count > 0 ? std::make_optional(intent) : std::nullopt;
 }
 
 void encode(BitWriter& writer, const std::vector<Conflict>& conflicts) {

@@ -12,6 +12,8 @@ constexpr std::size_t kMaxEchoes = 15;         // [-]
 constexpr std::size_t kMaxDigest = 31;         // [-] entries in a packet
 constexpr std::size_t kMaxIntervals = 5;       // [-] in an entry
 constexpr std::size_t kMaxPoses = 48;          // [-] of a trajectory
+constexpr std::size_t kMaxWay = 15;            // [-] corners
+constexpr int kMaxDepth = 15;                  // [-]
 constexpr std::size_t kMaxConflicts = 7;       // [-]
 constexpr std::size_t kMaxBlobs = 8;           // [-]
 constexpr std::size_t kMaxGroupRecords = 127;  // [-]
@@ -21,6 +23,7 @@ void encode(BitWriter& writer, const Beacon& beacon);
 void encode(BitWriter& writer, const std::vector<Echo>& echoes);
 void encode(BitWriter& writer, const std::vector<DigestEntry>& digest);
 void encode(BitWriter& writer, const TrajectoryMessage& trajectory);
+void encode(BitWriter& writer, const IntentMessage& intent);
 void encode(BitWriter& writer, const std::vector<Conflict>& conflicts);
 void encode(BitWriter& writer, const ObservationMessage& observations);
 void encode(BitWriter& writer, const RecordGroup& group);
@@ -30,6 +33,7 @@ std::optional<Beacon> decodeBeacon(BitReader reader);
 std::optional<std::vector<Echo>> decodeEchoes(BitReader reader);
 std::optional<std::vector<DigestEntry>> decodeDigest(BitReader reader);
 std::optional<TrajectoryMessage> decodeTrajectory(BitReader reader);
+std::optional<IntentMessage> decodeIntent(BitReader reader);
 std::optional<std::vector<Conflict>> decodeConflicts(BitReader reader);
 std::optional<ObservationMessage> decodeObservations(BitReader reader);
 std::optional<RecordGroup> decodeRecords(BitReader reader);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "parley_geometry/polygon.h"
+
 namespace parley {
 
 namespace {
@@ -11,14 +13,25 @@ namespace {
 constexpr int kMostPasses = 8;         // simulations until the margins must be kept
 constexpr double kBackOff = 0.03;      // [m] stop this much before what is too near
 constexpr double kTrackBackOff = 0.2;  // [m] as above for what moves: it comes nearer while the robot brakes
+constexpr double kPeerBackOff = 0.4;   // [m] as above for teammates: either may have to turn
 constexpr double kSlack = 0.005;       // [m] by which a start that is too near may come nearer: lookups are no better
 constexpr double kLastMargin = 0.01;   // [m]
 constexpr double kSpeedSlack = 0.02;   // [m/s]
+constexpr double kMostUncertain = 0.15;  // [m] of a peer's place
 
 }  // namespace
 
 DriveGenerator::DriveGenerator(const Footprint& footprint, const MotionLimits& limits, double time_step)
     : footprint_(footprint), probe_(footprint), limits_(limits), time_step_(time_step) {}
+
+double peerClearance(const Footprint& footprint, const TrajectoryPoint& point, const PeerMotion& peer, double margin) {
+  const Pose2 there = peer.trajectory.at(point.time).pose;
+  const double kept = margin + std::min(kMostUncertain, 2.0 * peer.sigma);
+  const double apart = (there.position() - point.pose.position()).norm();
+  const double far = apart - footprint.circumscribedRadius() - peer.footprint.circumscribedRadius() - kept;
+  if (far > 1.0) return 1.0;
+  return convexDistance(footprint.polygonAt(point.pose), peer.footprint.polygonAt(there)) - kept;
+}
 
 DriveGenerator::Floor DriveGenerator::floorAt(const TrajectoryPoint& start, const DriveScene& scene,
                                               const Margins& margins) const {
@@ -27,7 +40,16 @@ DriveGenerator::Floor DriveGenerator::floorAt(const TrajectoryPoint& start, cons
   // A start that lacks the creeping margin may lose a little more of it, but never again and again down to nothing.
   const double floor = obstacles < kLastMargin ? obstacles - 1e-3 : std::max(kLastMargin, obstacles - kSlack);
   return {std::min(margins.creeping, floor), std::min(0.0, unseen - kSlack),
-          std::clamp(trackClearance(start, scene, start.time) - kSlack, 0.0, scene.track_margin)};
+          std::clamp(trackClearance(start, scene, start.time) - kSlack, 0.0, scene.track_margin),
+          std::min(0.0, peersClearance(start, scene) - kSlack)};
+}
+
+double DriveGenerator::peersClearance(const TrajectoryPoint& point, const DriveScene& scene) const {
+  double least = 1.0;
+  for (const PeerMotion& peer : scene.peers) {
+    least = std::min(least, peerClearance(footprint_, point, peer, scene.peer_margin));
+  }
+  return least;
 }
 
 double DriveGenerator::trackClearance(const TrajectoryPoint& point, const DriveScene& scene, double start_time) const {
@@ -67,10 +89,11 @@ DriveGenerator::Correction DriveGenerator::corrected(const PathDrive& drive, con
     const bool hits = room < floor.obstacles;
     const bool strays = probe_.clearance(scene.surroundings.unseen(), point.pose) < floor.unseen;
     const bool meets = trackClearance(point, scene, drive.points.front().time) < floor.tracks;
-    if (hits || strays || meets) {
-      const double back_off = meets ? kTrackBackOff : kBackOff;
+    const bool bumps = peersClearance(point, scene) < floor.peers;
+    if (hits || strays || meets || bumps) {
+      const double back_off = bumps ? kPeerBackOff : (meets ? kTrackBackOff : kBackOff);
       correction.profile.stopAt(std::min(s, profile.stop()) - back_off);
-      correction.end = hits ? DriveEnd::kObstacle : (strays ? DriveEnd::kUnseen : DriveEnd::kTrack);
+      correction.end = hits ? DriveEnd::kObstacle : (strays ? DriveEnd::kUnseen : (meets ? DriveEnd::kTrack : DriveEnd::kPeer));
       correction.changed = true;
       break;
     }
@@ -111,7 +134,7 @@ bool DriveGenerator::isFree(const std::vector<TrajectoryPoint>& points, const Dr
   return std::all_of(points.begin(), points.end(), [&](const TrajectoryPoint& point) {
     return probe_.clearance(scene.surroundings.obstacles(), point.pose) >= floor.obstacles &&
            probe_.clearance(scene.surroundings.unseen(), point.pose) >= floor.unseen &&
-           trackClearance(point, scene, points.front().time) >= floor.tracks;
+           trackClearance(point, scene, points.front().time) >= floor.tracks && peersClearance(point, scene) >= floor.peers;
   });
 }
 

@@ -5,13 +5,14 @@
 
 #include "margins.h"
 #include "parley_geometry/motion.h"
+#include "parley_planner/peer_motion.h"
 #include "path_follower.h"
 #include "surroundings.h"
 
 namespace parley {
 
 /// Why a drive ends where it does.
-enum class DriveEnd { kPathEnd, kObstacle, kUnseen, kTrack, kInfeasible };
+enum class DriveEnd { kPathEnd, kObstacle, kUnseen, kTrack, kPeer, kInfeasible };
 
 struct GeneratedDrive {
   PathDrive drive;
@@ -25,7 +26,12 @@ struct DriveScene {
   const std::vector<TrackedObject>& tracks;
   double prediction_time;  // [s]
   double track_margin;     // [m]
+  const std::vector<PeerMotion>& peers;
+  double peer_margin;  // [m] their pose's error apart
 };
+
+/// Between a robot and a peer when the robot is there, to what has to be kept between them; not more than 1. [m]
+double peerClearance(const Footprint& footprint, const TrajectoryPoint& point, const PeerMotion& peer, double margin);
 
 /// Finds the fastest simulated drive along a path that keeps its margins and ends standing in space seen free: simulates,
 /// lowers the speed profile where the drive came too near, and repeats.
@@ -50,6 +56,7 @@ class DriveGenerator {
     double obstacles;  // [m]
     double unseen;     // [m]
     double tracks;     // [m]
+    double peers;      // [m]
   };
   struct Correction {
     SpeedProfile profile;
@@ -63,6 +70,7 @@ class DriveGenerator {
   SpeedProfile profileAlong(const ReferencePath& path, const DriveScene& scene, const Margins& margins,
                             const std::vector<double>& sight_bounds) const;
   bool isFree(const std::vector<TrajectoryPoint>& points, const DriveScene& scene, const Margins& margins) const;
+  double peersClearance(const TrajectoryPoint& point, const DriveScene& scene) const;
   double trackClearance(const TrajectoryPoint& point, const DriveScene& scene, double start_time) const;
 
   Footprint footprint_;

@@ -14,7 +14,7 @@ constexpr double kContact = 0.01;  // [m] nearer than this counts as touching
 /// Speed at the first touch; zero if there is none. [m/s]
 double speedAtContact(const TrajectoryValidator& validator, const SampledTrajectory& trajectory) {
   const Verdict verdict = validator.checkRest(trajectory, trajectory.startTime(), {kContact, 0.0, 0.0});
-  const bool touches = verdict.flaw == Flaw::kObstacle || verdict.flaw == Flaw::kTrack;
+  const bool touches = verdict.flaw == Flaw::kObstacle || verdict.flaw == Flaw::kTrack || verdict.flaw == Flaw::kPeer;
   return touches ? std::abs(trajectory.at(verdict.time).twist.speed) + kSlow : 0.0;
 }
 

@@ -69,7 +69,7 @@ std::optional<Proposal> Manoeuvres::driveOn(const ManoeuvreTask& task, const Tra
   const PathStart entry{{start.pose.x, start.pose.y, wrapAngle(start.pose.yaw + (reverse ? kPi : 0.0))},
                         std::abs(start.twist.speed),
                         start.twist.turn_rate};
-  const ReferencePath smooth = smoothed(path, entry, task.scene.surroundings.obstacles(), smoothing);
+  const ReferencePath smooth = smoothed(path, entry, task.shape, smoothing);
   const double start_s = smooth.project(start.pose.position(), 0.0, 1.0);
   std::vector<double> sight;
   if (task.sight_law && !reverse) sight = task.sight_law->bounds(smooth, start_s, start.twist.speed);

@@ -201,6 +201,19 @@ Path straightened(const Surroundings& surroundings, const Path& path, double com
   return result;
 }
 
+Path shortened(const Path& path, double by) {
+  double left = pathLength(path) - by;
+  if (left <= 0.0) return {};
+  Path result = {path.front()};
+  for (std::size_t i = 1; i < path.size() && left > 0.0; ++i) {
+    const Eigen::Vector2d step = path[i] - path[i - 1];
+    const double share = step.norm() > left ? left / step.norm() : 1.0;
+    result.emplace_back(path[i - 1] + share * step);
+    left -= step.norm();
+  }
+  return result;
+}
+
 Path resampled(const Path& path, double spacing) {
   const double length = pathLength(path);
   const int count = std::max(1, static_cast<int>(std::ceil(length / spacing)));

@@ -33,6 +33,9 @@ FoundPath searchPath(const Surroundings& surroundings, const Eigen::Vector2d& st
 /// The same way with fewer corners: shortcuts that come no nearer to obstacles than what they replace, or than comfort.
 Path straightened(const Surroundings& surroundings, const Path& path, double comfort_distance);
 
+/// The path without its last `by` [m]; empty if nothing is left.
+Path shortened(const Path& path, double by);
+
 /// Points every `spacing` along the path, ends kept; spacing is shrunk to fit.
 Path resampled(const Path& path, double spacing);
 

@@ -45,12 +45,19 @@ Planner::Pipeline::Pipeline(const PlannerOptions& options, const Footprint& foot
       manoeuvres_(options, footprint, limits),
       validator_(footprint, limits, options.prediction_time, options.track_margin),
       sight_law_(sightLaw(options, footprint), limits),
-      watch_(options.stuck_time) {}
+      watch_(options.stuck_time),
+      traffic_(options, footprint, limits) {}
 
 void Planner::Pipeline::reset() {
   surroundings_ = {};
   sight_law_.reset();
   watch_.reset();
+  traffic_.reset();
+  intent_ = {};
+  escape_.reset();
+  failed_escapes_.clear();
+  passing_off_until_ = -1e9;
+  reached_ = false;
   path_.clear();
   planned_at_ = busy_until_ = squeezed_at_ = -1e9;
   arrived_ = false;
@@ -60,18 +67,18 @@ PlanResult Planner::Pipeline::plan(const PlanRequest& request) {
   if (!usable(request)) return keep(PlanCode::kNoPath, "inputs are not usable");
   if (request.now < planned_at_) reset();  // time went back
   const TrajectoryPoint start = startState(request);
-  validator_.observe({request.map, request.scan, request.T_odom_scan, request.tracks});
+  if ((request.goal - goal_).norm() > 0.05) arrived_ = reached_ = false;
+  goal_ = request.goal;
+  traffic_.observe(request);
+  validator_.observe(
+      {request.map, traffic_.scan(), request.T_odom_scan, traffic_.tracks(), traffic_.peers(), intent_.right});
   // What is driven already may come nearer than what is newly committed: noise alone must not stop the robot.
   const Margins least{kLeastMargin, 0.3 * options_.margin_per_speed, options_.creep_speed};
   const bool valid = validator_.checkRest(request.committed, start.time, least).good();
 
-  if ((request.goal - goal_).norm() > 0.05) arrived_ = false;
-  goal_ = request.goal;
-  if (arrived(request)) {
-    watch_.reset();
-    return keep(PlanCode::kArrived, "at the goal");
-  }
+  if (request.at_goal || arrived(request)) return rest(request, start);
   if (!request.route.exists()) {
+    tell(ownRight(request), {start.pose.position()});
     return valid ? keep(PlanCode::kNoRoute, "no route") : brake(request, start, PlanCode::kNoRoute, "no route");
   }
   if (valid && (mayKeep(request) || endsAtGoal(request))) return keep(PlanCode::kDriving, "");
@@ -112,6 +119,7 @@ bool Planner::Pipeline::arrived(const PlanRequest& request) {
 bool Planner::Pipeline::mayKeep(const PlanRequest& request) const {
   if (request.committed.empty() || request.start_time >= request.committed.endTime()) return false;
   if (request.start_time < busy_until_) return true;
+  if (isNearPeers(request)) return false;
   const bool alone = std::none_of(request.tracks.begin(), request.tracks.end(),
                                   [](const TrackedObject& track) { return track.has_moved || track.observations < kNewTrack; });
   if (!alone) return false;  // first sight must not wait
@@ -126,41 +134,53 @@ bool Planner::Pipeline::endsAtGoal(const PlanRequest& request) const {
 }
 
 void Planner::Pipeline::look(const PlanRequest& request, const TrajectoryPoint& start) {
-  surroundings_ = Surroundings(request.map, request.scan, request.T_odom_scan, request.tracks);
+  surroundings_ = Surroundings(request.map, traffic_.scan(), request.T_odom_scan, traffic_.tracks());
   speed_bound_ = limits_.speed;
   if (options_.sight_law) {
-    sight_law_.observe(surroundings_, request.scan, request.T_odom_scan, request.tracks, start.pose, request.now);
+    sight_law_.observe(surroundings_, traffic_.scan(), request.T_odom_scan, traffic_.tracks(), start.pose, request.now);
     speed_bound_ = std::min(limits_.speed, sight_law_.speedFor(sight_law_.gapAt(start.pose.position())));
   }
-  local_goal_ = localGoal(request.route, request.odometry.pose.position(), options_.look_ahead, request.map.frame, kWindowRim);
+  if (request.route.exists()) local_goal_ = localGoal(request.route, request.odometry.pose.position(), options_.look_ahead, request.map.frame, kWindowRim);
   watch_.update(request.odometry.pose.position(), request.now);
 }
 
 PlanResult Planner::Pipeline::replan(const PlanRequest& request, const TrajectoryPoint& start, bool committed_valid) {
   planned_at_ = request.now;
   look(request, start);
-  const std::optional<Proposal> proposal = bestProposal(request, start);
+  if (options_.conflict_resolution && isNearPeers(request)) return negotiate(request, start, committed_valid);
+  tell(ownRight(request), {start.pose.position()});
+  return decided(request, start, bestProposal(request, start), committed_valid);
+}
+
+PlanResult Planner::Pipeline::decided(const PlanRequest& request, const TrajectoryPoint& start,
+                                      const std::optional<Proposal>& proposal, bool committed_valid) {
   if (proposal) return commit(*proposal);
+  if (options_.conflict_resolution && !traffic_.peers().empty() && isBehindPeer(start)) {
+    return committed_valid ? keep(stands(start.twist) ? PlanCode::kWaiting : PlanCode::kDriving, "waiting for a teammate")
+                           : brake(request, start, PlanCode::kWaiting, "waiting for a teammate");
+  }
   const std::string why = somethingMoved(request) ? "blocked by something that moved" : "blocked";
   if (committed_valid) return keep(stands(start.twist) ? PlanCode::kBlocked : PlanCode::kDriving, why);
   return brake(request, start, PlanCode::kBlocked, why);
 }
 
-std::optional<Proposal> Planner::Pipeline::bestProposal(const PlanRequest& request, const TrajectoryPoint& start) {
-  const bool stuck = watch_.level() > 0;
-  const Margins margins{stuck ? options_.margin_tight : options_.margin_creeping, options_.margin_per_speed,
+Planner::Pipeline::Attempt Planner::Pipeline::usualAttempt() const {
+  const Margins margins{watch_.level() > 0 ? options_.margin_tight : options_.margin_creeping, options_.margin_per_speed,
                         options_.creep_speed};
-  const double inscribed = footprint_.inscribedRadius();
+  return {footprint_.inscribedRadius() + 0.01, options_.comfort_distance, options_.push_distance, margins, false};
+}
+
+std::optional<Proposal> Planner::Pipeline::bestProposal(const PlanRequest& request, const TrajectoryPoint& start) {
   std::optional<Proposal> best;
   const auto consider = [&best](std::optional<Proposal> other) {
     if (other && (!best || other->advance > best->advance + 0.5 * kUsefulAdvance)) best = std::move(other);
   };
-  const Attempt usual{inscribed + 0.01, options_.comfort_distance, options_.push_distance, margins, false};
+  const Attempt usual = usualAttempt();
   consider(attempt(usual, request, start));
   if (isUseful(best) || std::abs(start.twist.speed) > kSlowSpeed) return best;
   // Wider round corners; where any heading fits, none is in the way.
-  const double round = footprint_.circumscribedRadius() + margins.creeping;
-  const Attempt wide{round, options_.comfort_distance + kWiderPush, options_.push_distance + kWiderPush, margins, false};
+  const double round = footprint_.circumscribedRadius() + usual.margins.creeping;
+  const Attempt wide{round, options_.comfort_distance + kWiderPush, options_.push_distance + kWiderPush, usual.margins, false};
   consider(attempt(wide, request, start));
   if (isUseful(best) || !stands(start.twist) || request.now - squeezed_at_ < kSqueezePeriod) return best;
   squeezed_at_ = request.now;
@@ -178,11 +198,26 @@ std::optional<Proposal> Planner::Pipeline::attempt(const Attempt& how, const Pla
   search.clearance_weight = options_.clearance_weight;
   search.unknown_cost = options_.unknown_cost;
   search.keep_discount = options_.keep_path_discount;
-  const FoundPath found = searchPath(surroundings_, start.pose.position(), local_goal_, path_, search);
-  if (found.points.empty()) return std::nullopt;
-  const Path path = straightened(surroundings_, found.points, how.comfort_distance);
-  const DriveScene scene{surroundings_, request.tracks, options_.prediction_time, options_.track_margin};
-  const ManoeuvreTask task{path, start, scene, how.margins, how.push_distance, options_.sight_law ? &sight_law_ : nullptr};
+  const Surroundings& shape = how.shape != nullptr ? *how.shape : surroundings_;
+  const FoundPath found = searchPath(shape, start.pose.position(), local_goal_, path_, search);
+  if (found.points.empty() || (how.whole && (!found.reaches || pathLength(found.points) > how.most))) return std::nullopt;
+  Path path = straightened(shape, found.points, how.comfort_distance);
+  if (!found.reaches && how.trim > 0.0) path = shortened(path, how.trim);
+  return path.size() < 2 ? std::nullopt : along(path, how, start);
+}
+
+/// A motion along a path, if the validator lets it pass.
+std::optional<Proposal> Planner::Pipeline::along(const Path& path, const Attempt& how,
+                                                 const TrajectoryPoint& start) const {
+  const Surroundings& shape = how.shape != nullptr ? *how.shape : surroundings_;
+  const DriveScene scene{how.squeeze ? shape : surroundings_,
+                         traffic_.tracks(),
+                         options_.prediction_time,
+                         options_.track_margin,
+                         traffic_.careful(),
+                         options_.peer_margin};
+  const ManoeuvreTask task{path, start, scene, how.margins, how.push_distance, options_.sight_law ? &sight_law_ : nullptr,
+                           shape.obstacles()};
   std::optional<Proposal> proposal = how.squeeze ? manoeuvres_.squeeze(task) : manoeuvres_.propose(task);
   if (!proposal) return std::nullopt;
   const Margins judged{std::max(kLeastMargin + 0.005, 0.4 * how.margins.creeping), 0.5 * how.margins.per_speed,
@@ -215,6 +250,8 @@ PlanResult Planner::Pipeline::keep(PlanCode code, const std::string& why) const 
   result.local_goal = local_goal_;
   result.path = path_;
   result.speed_bound = speed_bound_;
+  result.intent = intent_;
+  result.escapes = escapes_;
   return result;
 }
 

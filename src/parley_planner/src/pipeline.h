@@ -8,6 +8,7 @@
 #include "parley_planner/planner.h"
 #include "progress_watch.h"
 #include "sight_law.h"
+#include "traffic.h"
 #include "trajectory_validator.h"
 
 namespace parley {
@@ -28,6 +29,10 @@ class Planner::Pipeline {
     double push_distance;     // [m]
     Margins margins;
     bool squeeze;
+    const Surroundings* shape = nullptr;  // with peers' room closed; null: as seen
+    bool whole = false;                   // only a path to the local goal itself will do
+    double most = 1e9;                    // [m] and no longer than this
+    double trim = 0.0;                    // [m] of a path that does not reach the local goal, left out at its end
   };
 
   bool usable(const PlanRequest& request) const;
@@ -37,7 +42,25 @@ class Planner::Pipeline {
   bool endsAtGoal(const PlanRequest& request) const;
   void look(const PlanRequest& request, const TrajectoryPoint& start);
   PlanResult replan(const PlanRequest& request, const TrajectoryPoint& start, bool committed_valid);
+  PlanResult decided(const PlanRequest& request, const TrajectoryPoint& start, const std::optional<Proposal>& proposal,
+                     bool committed_valid);
+  Attempt usualAttempt() const;
+  RightOfWay ownRight(const PlanRequest& request) const;
+  bool isBehindPeer(const TrajectoryPoint& start) const;
+  bool isNearPeers(const PlanRequest& request) const;
+  Path desiredWay(const PlanRequest& request, const TrajectoryPoint& start) const;
+  PlanResult rest(const PlanRequest& request, const TrajectoryPoint& start);
+  PlanResult negotiate(const PlanRequest& request, const TrajectoryPoint& start, bool committed_valid);
+  std::optional<Proposal> passBy(const TrafficDecision& decision, const Path& desired, const PlanRequest& request,
+                                 const TrajectoryPoint& start) const;
+  PlanResult makeRoom(const TrafficDecision& decision, const PlanRequest& request, const TrajectoryPoint& start,
+                      bool committed_valid);
+  std::optional<Proposal> escape(const TrafficDecision& decision, const PlanRequest& request, const TrajectoryPoint& start);
+  std::optional<Proposal> escapeAlong(const Path& path, const PlanRequest& request, const TrajectoryPoint& start);
+  PlanResult standAside(const PlanRequest& request, const TrajectoryPoint& start);
+  void tell(const RightOfWay& right, const Path& way);
   std::optional<Proposal> bestProposal(const PlanRequest& request, const TrajectoryPoint& start);
+  std::optional<Proposal> along(const Path& path, const Attempt& how, const TrajectoryPoint& start) const;
   std::optional<Proposal> attempt(const Attempt& how, const PlanRequest& request, const TrajectoryPoint& start) const;
   PlanResult commit(const Proposal& proposal);
   PlanResult brake(const PlanRequest& request, const TrajectoryPoint& start, PlanCode code, const std::string& why);
@@ -53,6 +76,13 @@ class Planner::Pipeline {
   ProgressWatch watch_;
 
   Surroundings surroundings_;
+  Traffic traffic_;
+  Intent intent_;
+  std::optional<Eigen::Vector2d> escape_;    // [m] the escape point on the way to which it is
+  std::vector<std::pair<double, Eigen::Vector2d>> failed_escapes_;  // [s] until when not to be tried, [m]
+  double passing_off_until_ = -1e9;          // [s] passing by did not work
+  int escapes_ = 0;
+  bool reached_ = false;  // it has stood at this goal
   Eigen::Vector2d goal_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d local_goal_ = Eigen::Vector2d::Zero();
   Path path_;                  // that the last commitment follows

@@ -19,12 +19,25 @@ class Surroundings {
   /// where they will be, not where they are.
   Surroundings(const LocalMap& map, const ObstacleScan& scan, const Pose2& T_odom_scan, const std::vector<TrackedObject>& tracks);
 
+  /// The same with more obstacles: those where `blocked(p)` holds.
+  template <class Blocked>
+  Surroundings with(const Blocked& blocked) const {
+    std::vector<unsigned char> mask = mask_;
+    for (int i = 0; i < static_cast<int>(mask.size()); ++i) {
+      const Eigen::Vector2i cell(i % frame().width, i / frame().width);
+      if (!mask[static_cast<std::size_t>(i)] && blocked(frame().centerOf(cell))) mask[static_cast<std::size_t>(i)] = 1;
+    }
+    Surroundings result = *this;
+    result.obstacles_ = DistanceField(frame(), mask);
+    return result;
+  }
   bool empty() const { return obstacles_.empty(); }
   const GridFrame& frame() const { return obstacles_.frame(); }
   const DistanceField& obstacles() const { return obstacles_; }
   const DistanceField& unseen() const { return unseen_; }
 
  private:
+  std::vector<unsigned char> mask_;  // of obstacles
   DistanceField obstacles_;
   DistanceField unseen_;
 };

@@ -17,6 +17,11 @@ constexpr double kStandingTwist = 1e-3;      // [m/s] [rad/s]
 constexpr double kSlack = 0.002;             // [m] that a state may lack more than the first one already does
 constexpr int kUnseenSpecks = 6;             // [cells] that rays left out and that a footprint may cover
 constexpr double kSeenMargin = 0.05;         // [m] a ray must pass a place by this much to have seen it free
+constexpr double kNever = 1e18;              // [s]
+constexpr double kRoomIsMade = 0.5;          // [s] after it could have stopped, a robot that goes first counts on others' room
+constexpr double kPeerGap = 0.04;            // [m] between two robots that keep to what they said
+constexpr double kPeerSigma = 0.1;           // [m]
+constexpr double kFarPeer = 0.5;             // [m] further apart than this is all the same
 constexpr double kTrackGrowth = 0.15;        // [m] returns this far outside a moving thing are its own
 
 bool finite(const TrajectoryPoint& p) {
@@ -33,6 +38,8 @@ void TrajectoryValidator::observe(const Evidence& evidence) {
   map_ = &evidence.map;
   scan_ = &evidence.scan;
   tracks_ = &evidence.tracks;
+  peers_ = evidence.peers;
+  right_ = evidence.right;
   T_scan_odom_ = evidence.T_odom_scan.inverse();
   const GridFrame& frame = map_->frame;
   buckets_frame_.origin = frame.origin;
@@ -65,13 +72,15 @@ Verdict TrajectoryValidator::check(const SampledTrajectory& trajectory, const Tr
                                    const Margins& margins) const {
   if (trajectory.empty()) return {Flaw::kEmpty, begin.time};
   const Verdict motion = checkMotion(trajectory.points(), begin);
-  return motion.good() ? checkPlaces(trajectory.points(), margins) : motion;
+  return motion.good() ? checkPlaces(trajectory.points(), margins, kNever) : motion;
 }
 
 Verdict TrajectoryValidator::checkRest(const SampledTrajectory& trajectory, double time, const Margins& margins) const {
   if (trajectory.empty()) return {Flaw::kEmpty, time};
   if (time >= trajectory.endTime()) return {};
-  return checkPlaces(trajectory.from(time).points(), margins);
+  const std::vector<TrajectoryPoint> points = trajectory.from(time).points();
+  const double stopped = time + std::abs(points.front().twist.speed) / limits_.acceleration;
+  return checkPlaces(points, margins, stopped + kRoomIsMade);
 }
 
 Verdict TrajectoryValidator::checkMotion(const std::vector<TrajectoryPoint>& points, const TrajectoryPoint& begin) const {
@@ -102,19 +111,35 @@ Verdict TrajectoryValidator::checkMotion(const std::vector<TrajectoryPoint>& poi
   return stands ? Verdict{} : Verdict{Flaw::kDoesNotStop, points.back().time};
 }
 
-Verdict TrajectoryValidator::checkPlaces(const std::vector<TrajectoryPoint>& points, const Margins& margins) const {
+Verdict TrajectoryValidator::checkPlaces(const std::vector<TrajectoryPoint>& points, const Margins& margins,
+                                         double trust_from) const {
   // Where the robot already is cannot be helped; it must not get worse.
   const double had_room = obstacleDistance(points.front().pose) - kSlack;
   const double had_gap = std::max(0.0, trackDistance(points.front()) - kSlack);
+  const double had_peer = peerDistance(points.front(), kNever) - kSlack;
   const int had_unseen = std::max(kUnseenSpecks, unseenCells(points.front().pose));
   for (const TrajectoryPoint& point : points) {
     const double room = obstacleDistance(point.pose);
     if (room < std::min(had_room, margins.at(point.twist.speed))) return {Flaw::kObstacle, point.time};
+    if (peerDistance(point, trust_from) < std::min(had_peer, kPeerGap)) return {Flaw::kPeer, point.time};
     if (unseenCells(point.pose) > had_unseen) return {Flaw::kUnseen, point.time};
     if (point.time - points.front().time > prediction_time_) continue;
     if (trackDistance(point) < std::min(had_gap, track_margin_)) return {Flaw::kTrack, point.time};
   }
   return {};
+}
+
+double TrajectoryValidator::peerDistance(const TrajectoryPoint& point, double trust_from) const {
+  double least = 1e3;
+  const Polygon rectangle = footprint_.polygonAt(point.pose);
+  for (const PeerMotion& peer : peers_) {
+    if (point.time > trust_from && goesBefore(right_, peer.intent.right)) continue;
+    const Pose2 there = peer.trajectory.at(point.time).pose;
+    const double reach = footprint_.circumscribedRadius() + peer.footprint.circumscribedRadius() + kFarPeer;
+    if ((there.position() - point.pose.position()).norm() > reach) continue;
+    least = std::min(least, convexDistance(rectangle, peer.footprint.polygonAt(there)) - std::min(kPeerSigma, peer.sigma));
+  }
+  return least;
 }
 
 double TrajectoryValidator::obstacleDistance(const Pose2& pose) const {

@@ -10,6 +10,7 @@
 #include "parley_geometry/status.h"
 #include "parley_geometry/tracked_object.h"
 #include "parley_geometry/trajectory.h"
+#include "parley_planner/peer_motion.h"
 
 namespace parley {
 
@@ -22,7 +23,8 @@ enum class Flaw {
   kDoesNotStop,    // its last state moves
   kObstacle,       // comes too near to a return or an occupied cell
   kUnseen,         // enters space that has not been seen free
-  kTrack           // comes too near to where a moving thing will be
+  kTrack,          // comes too near to where a moving thing will be
+  kPeer            // comes too near to where a teammate said it will be
 };
 
 struct Verdict {
@@ -37,6 +39,8 @@ struct Evidence {
   const ObstacleScan& scan;
   Pose2 T_odom_scan;
   const std::vector<TrackedObject>& tracks;
+  std::vector<PeerMotion> peers = {};
+  RightOfWay right = {};  // of this robot
 };
 
 /// Judges a trajectory by the exact rectangle against every return of the newest scan and every occupied cell. Shares no
@@ -55,7 +59,9 @@ class TrajectoryValidator {
 
  private:
   Verdict checkMotion(const std::vector<TrajectoryPoint>& points, const TrajectoryPoint& begin) const;
-  Verdict checkPlaces(const std::vector<TrajectoryPoint>& points, const Margins& margins) const;
+  /// Peers that this robot goes before count until `trust_from` [s]: by then they have made room.
+  Verdict checkPlaces(const std::vector<TrajectoryPoint>& points, const Margins& margins, double trust_from) const;
+  double peerDistance(const TrajectoryPoint& point, double trust_from) const;
   void addPoint(const Eigen::Vector2d& p_odom);
   double obstacleDistance(const Pose2& pose) const;
   double trackDistance(const TrajectoryPoint& point) const;
@@ -70,6 +76,8 @@ class TrajectoryValidator {
   const LocalMap* map_ = nullptr;
   const ObstacleScan* scan_ = nullptr;
   const std::vector<TrackedObject>* tracks_ = nullptr;
+  std::vector<PeerMotion> peers_;
+  RightOfWay right_;
   Pose2 T_scan_odom_;
   GridFrame buckets_frame_;
   std::vector<std::vector<Eigen::Vector2d>> buckets_;  // [m] obstacle points by place, odom frame

@@ -13,6 +13,10 @@ DriveState driveStateOf(PlanCode code) {
       return DriveState::kNoRoute;
     case PlanCode::kWaiting:
       return DriveState::kWaiting;
+    case PlanCode::kYielding:
+      return DriveState::kYielding;
+    case PlanCode::kEscaping:
+      return DriveState::kEscaping;
     case PlanCode::kNoPath:
     case PlanCode::kBlocked:
       break;

@@ -16,6 +16,14 @@ RobotOptions usable(const RobotOptions& options) {
   return options;
 }
 
+PlannerOptions plannerOf(const RobotOptions& options) {
+  PlannerOptions planner = options.planner;
+  if (options.variant == Variant::kNoConflictResolution || options.variant == Variant::kReactive) {
+    planner.conflict_resolution = false;
+  }
+  return planner;
+}
+
 }  // namespace
 
 RobotStack::RobotStack(const RobotOptions& options)
@@ -23,7 +31,7 @@ RobotStack::RobotStack(const RobotOptions& options)
       odometry_(2.0, 2000, options.wiring.jump_distance, options.wiring.jump_angle),
       lidar_(options.lidar, options.footprint, options.mount),
       topology_(options.topology, options.footprint),
-      planner_(options.planner, options.footprint, options.limits),
+      planner_(plannerOf(options), options.footprint, options.limits),
       controller_(options.control, options.footprint, options.limits),
       goal_(options.goal_tolerance, options.wiring.arrival_hysteresis),
       topology_timer_(options.wiring.topology_rate),
@@ -100,6 +108,7 @@ RobotOutput RobotStack::step(double now) {
   output.packets = talk(now, drive.state);
   output.replans = plan_.count();
   output.route_switches = route_.switches;
+  output.escapes = last_plan_.escapes;
   return output;
 }
 
@@ -164,11 +173,7 @@ void RobotStack::planMotion(double now, StageTimes& times) {
   if (odometry_.empty() || !T_odom_scan_ || !goal_.goal() || !plan_trigger_.due(now, scan_is_new_)) return;
   scan_is_new_ = false;
   const double start_time = now + options_.wiring.plan_delay;
-  if (goal_.update(odometry_.latest())) {
-    last_plan_ = arrivedPlan();
-    plan_.offer(last_plan_, now, start_time);
-    return;
-  }
+  const bool at_goal = goal_.update(odometry_.latest());
   times.local_plan = timed([&] {
     const LocalMap map =
         topology_.localMap(odometry_.latest().pose.position(), options_.wiring.local_map_size, lidar_result_.scan.stamp);
@@ -182,10 +187,14 @@ void RobotStack::planMotion(double now, StageTimes& times) {
                               route_,
                               *goal_.goal(),
                               goal_.tolerance(),
-                              plan_.trajectory()};
+                              plan_.trajectory(),
+                              team_ ? team_->id() : 0,
+                              team_ ? team_->motions(now) : std::vector<PeerMotion>{},
+                              at_goal};
     last_plan_ = planner_.plan(request);
   });
   plan_.offer(last_plan_, now, start_time);
+  if (team_ && !last_plan_.intent.way.empty()) team_->setIntent(last_plan_.intent);
 }
 
 ControlResult RobotStack::driveWheels(double now, StageTimes& times) {

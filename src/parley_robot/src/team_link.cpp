@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "parley_geometry/polygon.h"
+
 namespace parley {
 namespace {
 
@@ -17,7 +19,10 @@ constexpr double kSoftSigma = 0.6;        // [m] outlines less certain than this
 constexpr double kMovedBy = 0.05;         // [m] of outlines some metres off: they are drawn anew
 constexpr double kMovedYaw = 0.01;        // [rad]
 constexpr double kStillSeen = 5.0;        // [s] what own sensing has seen since stays when somebody else sees through it
-constexpr double kFreshBeacon = 0.5;      // [s] a body is where its last beacon, younger than this, says
+constexpr double kFreshTrajectory = 3.0;  // [s] a body is where it said that it would be, not longer ago than this,
+constexpr double kFreshBeacon = 0.5;      // [s] else where its last beacon, younger than this, says
+constexpr std::size_t kMostCorners = 15;  // [-] of a way that is told
+constexpr double kCornerTolerance = 0.08; // [m]
 constexpr double kBodyMargin = 0.05;      // [m] beyond the pose's deviation
 
 /// What relative localization calls a robot.
@@ -25,6 +30,25 @@ std::string nameOf(RobotId id) {
   char text[16];
   std::snprintf(text, sizeof(text), "%08x", id);
   return text;
+}
+
+/// The corners of a way that say it to within a few centimetres, as many as can be told.
+std::vector<Eigen::Vector2d> cornersOf(const std::vector<Eigen::Vector2d>& way) {
+  if (way.size() < 3) return way;
+  std::vector<Eigen::Vector2d> corners = {way.front()};
+  for (std::size_t from = 0; from + 1 < way.size() && corners.size() < kMostCorners;) {
+    std::size_t to = from + 1;
+    const auto straight = [&](std::size_t end) {
+      for (std::size_t i = from + 1; i < end; ++i) {
+        if (pointSegmentDistance(way[i], way[from], way[end]) > kCornerTolerance) return false;
+      }
+      return true;
+    };
+    while (to + 1 < way.size() && straight(to + 1)) ++to;
+    corners.push_back(way[to]);
+    from = to;
+  }
+  return corners;
 }
 
 double deviation(const Eigen::Matrix2d& covariance) {
@@ -246,17 +270,50 @@ std::vector<KnownTeammate> TeamLink::bodies(double now) const {
   std::vector<KnownTeammate> bodies;
   for (const PeerState& peer : exchange_.peers(now)) {
     const auto found = teammates_.find(peer.id);
+    if (found == teammates_.end() || found->second.estimate.state != PoseState::kConfirmed || !peer.clock_known) continue;
     const double age = now - peer.odometry.stamp;
-    if (found == teammates_.end() || found->second.estimate.state != PoseState::kConfirmed || !peer.clock_known ||
-        age > kFreshBeacon) {
-      continue;
-    }
+    const std::optional<PeerTrajectory> said = exchange_.trajectoryOf(peer.id, now);
+    const bool drives_as_said = said && !said->trajectory.empty() && now - said->received < kFreshTrajectory;
+    if (age > kFreshBeacon && !drives_as_said) continue;
     const Twist2& twist = peer.odometry.twist;
-    const Pose2 pose = integrateTwist(peer.odometry.pose, twist.speed, twist.turn_rate, age);
+    const Pose2 pose = drives_as_said ? said->trajectory.at(now).pose
+                                      : integrateTwist(peer.odometry.pose, twist.speed, twist.turn_rate, age);
     const PoseEstimate& T = found->second.estimate.T_odom_peerodom;
     bodies.push_back({T.pose * pose, peer.footprint, kBodyMargin + deviation(pointCovariance(T, pose.position()))});
   }
   return bodies;
+}
+
+std::vector<PeerMotion> TeamLink::motions(double now) const {
+  std::vector<PeerMotion> motions;
+  for (const PeerState& peer : exchange_.peers(now)) {
+    const auto found = teammates_.find(peer.id);
+    const std::optional<PeerTrajectory> said = exchange_.trajectoryOf(peer.id, now);
+    const bool known = found != teammates_.end() && found->second.estimate.state == PoseState::kConfirmed;
+    if (!known || !peer.clock_known || !said || said->trajectory.empty() || peer.name.empty()) continue;
+    const PoseEstimate& T = found->second.estimate.T_odom_peerodom;
+    PeerMotion motion{peer.id, peer.footprint, {}, said->received, 0.0, {{1.0, peer.id, 0}, {}}};
+    std::vector<TrajectoryPoint> points = said->trajectory.points();
+    for (TrajectoryPoint& point : points) point.pose = T.pose * point.pose;
+    motion.sigma = deviation(pointCovariance(T, said->trajectory.at(now).pose.position()));
+    motion.trajectory = SampledTrajectory(std::move(points));
+    if (const std::optional<PeerIntent> told = exchange_.intentOf(peer.id)) {
+      const IntentMessage& intent = told->intent;
+      motion.intent.right = {intent.priority, intent.holder, intent.depth};
+      for (const Eigen::Vector2d& corner : intent.way) motion.intent.way.emplace_back(T.pose * corner);
+    }
+    motions.push_back(std::move(motion));
+  }
+  return motions;
+}
+
+void TeamLink::setIntent(const Intent& intent) {
+  IntentMessage message;
+  message.priority = intent.right.priority;
+  message.holder = intent.right.holder;
+  message.depth = intent.right.depth;
+  message.way = cornersOf(intent.way);
+  exchange_.setIntent(message);
 }
 
 std::vector<Packet> TeamLink::step(double now, const Odometry& odometry, const SampledTrajectory& trajectory, DriveState state) {

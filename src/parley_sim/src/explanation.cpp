@@ -35,6 +35,10 @@ const char* nameOf(PlanCode code) {
       return "blocked";
     case PlanCode::kWaiting:
       return "waiting";
+    case PlanCode::kYielding:
+      return "yielding";
+    case PlanCode::kEscaping:
+      return "escaping";
   }
   return "";
 }
@@ -67,6 +71,33 @@ void writeCommitted(std::ostream& out, const CommittedPlan& plan) {
   out << "\n";
 }
 
+void writeRight(std::ostream& out, const RightOfWay& right) {
+  out << " goes with right " << right.priority << " of " << std::hex << std::setw(8) << std::setfill('0') << right.holder << std::dec
+      << std::setfill(' ') << " at depth " << right.depth;
+}
+
+void writeIntent(std::ostream& out, const Intent& intent) {
+  writeRight(out, intent.right);
+  out << ", means to go";
+  for (const Eigen::Vector2d& p : intent.way) write(out, p);
+  out << "\n";
+}
+
+void writeTeam(std::ostream& out, const RobotStack& stack, double now) {
+  if (stack.team() == nullptr) return;
+  out << "self      ";
+  writeIntent(out, stack.lastPlan().intent);
+  for (const PeerMotion& peer : stack.team()->motions(now)) {
+    const auto mate = stack.team()->teammates().find(peer.id);
+    out << "peer       " << (mate != stack.team()->teammates().end() ? mate->second.name : "") << " at";
+    write(out, peer.trajectory.at(now).pose.position());
+    out << " until";
+    write(out, peer.trajectory.points().back().pose.position());
+    out << " at " << peer.trajectory.endTime() << " s, heard " << now - peer.heard << " s ago, sigma " << peer.sigma << " m,";
+    writeIntent(out, peer.intent);
+  }
+}
+
 void writeTracks(std::ostream& out, const std::vector<TrackedObject>& tracks) {
   for (const TrackedObject& track : tracks) {
     out << "track " << std::setw(5) << std::left << track.id << std::right;
@@ -94,6 +125,7 @@ std::string explanationOf(const RobotStack& stack) {
   writeRoute(out, stack.route());
   writePlan(out, stack.lastPlan());
   writeCommitted(out, stack.plan());
+  writeTeam(out, stack, odometry.stamp);
   writeTracks(out, stack.lidar().tracks);
   return out.str();
 }

@@ -54,6 +54,8 @@ class Exchange {
   /// At the odometry's rate; drops an anchor every few metres.
   bool setOdometry(const Odometry& odometry, DriveState state);
   bool setTrajectory(const SampledTrajectory& trajectory, DriveState state);
+  /// Where this robot means to go; sent with its trajectory, at once when right of way changes.
+  bool setIntent(const IntentMessage& intent);
   /// All that hold now; an empty list releases all.
   bool setConflicts(const std::vector<Conflict>& conflicts);
   bool setObservations(const ObservationMessage& observations, double stamp);
@@ -81,6 +83,7 @@ class Exchange {
   RobotId id() const;
   std::vector<PeerState> peers(double now) const;
   std::optional<PeerTrajectory> trajectoryOf(RobotId peer, double now) const;
+  std::optional<PeerIntent> intentOf(RobotId peer) const;
   std::optional<PeerConflicts> conflictsOf(RobotId peer) const;
   std::optional<PeerObservations> observationsOf(RobotId peer, double now) const;
   /// Robots whose maps are held, this one included if it has published anything.

@@ -57,6 +57,14 @@ struct TrajectoryMessage {
   std::vector<Pose2> poses;  // 1 to 48
 };
 
+/// Where the sender means to go, and with whose right of way.
+struct IntentMessage {
+  double priority = 0.0;             // [-] the higher goes first
+  RobotId holder = 0;                // whose right of way it is: the sender's own, or that of the robot it makes room for
+  int depth = 0;                     // [-] 0: its own; else how many robots make room for another in between, itself included
+  std::vector<Eigen::Vector2d> way;  // [m] 1 to 15 corners, the first where the sender is, in its odom frame
+};
+
 enum class ConflictKind { kClaim, kYield, kRelease };
 
 /// One side of an agreement on who goes first. The lower (cost of yielding, then id) yields; a claim holds while its lease does.
@@ -97,6 +105,7 @@ struct PacketContent {
   std::vector<Echo> echoes;
   std::vector<DigestEntry> digest;
   std::optional<TrajectoryMessage> trajectory;
+  std::optional<IntentMessage> intent;
   std::optional<std::vector<Conflict>> conflicts;  // all that hold; an empty list releases all
   std::optional<ObservationMessage> observations;
   std::vector<RecordGroup> records;

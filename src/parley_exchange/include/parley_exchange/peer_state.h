@@ -39,6 +39,12 @@ struct PeerTrajectory {
   SampledTrajectory trajectory;
 };
 
+/// Where a peer means to go, in its odom frame.
+struct PeerIntent {
+  double received = 0.0;  // [s]
+  IntentMessage intent;
+};
+
 /// What a peer says about who goes first; the lease counts down from `received`.
 struct PeerConflicts {
   double received = 0.0;  // [s]

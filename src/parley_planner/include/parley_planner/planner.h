@@ -13,6 +13,7 @@
 #include "parley_geometry/status.h"
 #include "parley_geometry/tracked_object.h"
 #include "parley_geometry/trajectory.h"
+#include "parley_planner/peer_motion.h"
 #include "parley_planner/planner_options.h"
 
 namespace parley {
@@ -23,7 +24,9 @@ enum class PlanCode {
   kNoRoute,  // the topological map has none: what is committed is driven to its end
   kNoPath,   // there is a route but no way onto it past what is seen
   kBlocked,  // something stands or moves in the way and there is no room to go round
-  kWaiting   // standing until another has passed
+  kWaiting,  // standing until another has passed
+  kYielding,  // another goes first: keeping off its way
+  kEscaping   // another goes first: on the way to where it does not need the room
 };
 
 /// All that a plan depends on. Positions are in the robot's odom frame.
@@ -39,6 +42,9 @@ struct PlanRequest {
   Eigen::Vector2d goal;                // [m]
   double goal_tolerance;               // [m]
   const SampledTrajectory& committed;  // what is being driven; may be empty
+  std::uint32_t id = 0;                // [-] number of this robot, as teammates know it
+  std::vector<PeerMotion> peers;       // teammates whose place is known
+  bool at_goal = false;                // it stands at its goal and would stay
 };
 
 struct PlanResult {
@@ -48,10 +54,12 @@ struct PlanResult {
   Eigen::Vector2d local_goal = Eigen::Vector2d::Zero();  // [m]
   std::vector<Eigen::Vector2d> path;                     // [m] that the trajectory follows
   double speed_bound = 0.0;                              // [m/s] what sight allows at the start
+  Intent intent;                                         // to be told to teammates
+  int escapes = 0;                                       // [-] escape points taken so far
 };
 
 /// Turns a route into a motion that ends in a stop inside space seen free: local goal, A*, smoothing, speed profile,
-/// simulated tracking within the drive's limits, independent validation (the paper's CRTP, without the other robots).
+/// simulated tracking within the drive's limits, independent validation, and right of way among teammates (the paper's CRTP).
 class Planner {
  public:
   /// Throws std::invalid_argument if options, footprint or limits are out of range.

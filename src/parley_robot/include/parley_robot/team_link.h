@@ -9,6 +9,7 @@
 
 #include "parley_exchange/exchange.h"
 #include "parley_lidar/lidar_stage.h"
+#include "parley_planner/peer_motion.h"
 #include "parley_relative_localization/relative_localization.h"
 #include "parley_robot/packet.h"
 #include "parley_topology/topology.h"
@@ -52,6 +53,13 @@ class TeamLink {
   MapChanges drawMaps(const Pose2& T_odom_base, double now);
   /// Bodies whose place is known well enough to keep their returns off the map.
   std::vector<KnownTeammate> bodies(double now) const;
+
+  /// Those whose place is known well enough, with what they said they will do.
+  std::vector<PeerMotion> motions(double now) const;
+  /// Where this robot means to go, to be told.
+  void setIntent(const Intent& intent);
+  /// The number by which teammates know this robot.
+  RobotId id() const { return exchange_.id(); }
 
   /// What to broadcast; call it at the control rate. `trajectory` may be empty.
   std::vector<Packet> step(double now, const Odometry& odometry, const SampledTrajectory& trajectory, DriveState state);

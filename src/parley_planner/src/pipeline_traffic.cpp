@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+
+#include "emergency_stop.h"
+#include "escape_search.h"
+#include "parley_geometry/polygon.h"
+#include "pipeline.h"
+
+namespace parley {
+
+namespace {
+
+constexpr double kNearPeer = 10.0;        // [m] a peer further off does not matter
+constexpr double kWaitingGap = 0.8;       // [m] to a peer that this robot waits for
+constexpr double kTellReach = 8.0;        // [m] of the way that is told
+constexpr double kPassingGap = 0.12;      // [m] between two that pass each other
+constexpr double kSeparation = 0.2;       // [m] that two who keep right would like between them
+constexpr double kDetour = 1.5;           // [-] times and
+constexpr double kDetourMore = 1.0;       // [m] more is not too long a way round peers
+constexpr double kPassingOff = 6.0;       // [s] having got stuck, passing by is not tried for so long
+constexpr double kFailedFor = 10.0;       // [s] an escape point that could not be reached is not tried for so long
+constexpr double kFailedShortly = 3.0;    // [s] and one to which no motion was found for so long
+constexpr int kEscapeTries = 3;           // [-] escape points looked at in one plan
+constexpr double kSqueezePeriod = 0.5;    // [s]
+constexpr double kStandOff = 0.3;         // [m] that a waiting robot stays before where it could go to
+constexpr double kWorthCreeping = 0.3;    // [m] a waiting robot does not move up by less
+constexpr double kAnotherEscape = 1.0;    // [m] an escape point further from the last is another one
+constexpr double kSlowSpeed = 0.3;        // [m/s]
+constexpr double kCloser = 0.02;          // [m]
+
+bool isIn(const Path& middle, double half_width, const Eigen::Vector2d& p) {
+  for (const Eigen::Vector2d& q : middle) {
+    if ((q - p).squaredNorm() < half_width * half_width) return true;
+  }
+  return false;
+}
+
+bool isUnder(const PeerTube& peer, const Eigen::Vector2d& p, double growth) {
+  return peer.footprint.contains(peer.pose.inverse() * p, growth);
+}
+
+bool among(const std::vector<PeerTube>& tubes, std::uint32_t id) {
+  return std::any_of(tubes.begin(), tubes.end(), [id](const PeerTube& tube) { return tube.id == id; });
+}
+
+}  // namespace
+
+bool Planner::Pipeline::isNearPeers(const PlanRequest& request) const {
+  const Eigen::Vector2d here = request.odometry.pose.position();
+  return std::any_of(traffic_.tubes().begin(), traffic_.tubes().end(),
+                     [&](const PeerTube& tube) { return (tube.pose.position() - here).norm() < kNearPeer; });
+}
+
+bool Planner::Pipeline::isBehindPeer(const TrajectoryPoint& start) const {
+  return std::any_of(traffic_.tubes().begin(), traffic_.tubes().end(), [&](const PeerTube& tube) {
+    return (tube.pose.position() - start.pose.position()).norm() <
+           footprint_.circumscribedRadius() + tube.footprint.circumscribedRadius() + kWaitingGap;
+  });
+}
+
+/// When nobody pushes it.
+RightOfWay Planner::Pipeline::ownRight(const PlanRequest& request) const {
+  if (traffic_.isShutIn(request.now, request.odometry.pose.position())) return {2.0, request.id, 0};
+  return {reached_ ? 0.0 : 1.0, request.id, 0};
+}
+
+void Planner::Pipeline::tell(const RightOfWay& right, const Path& way) {
+  intent_.right = right;
+  intent_.way = way;
+}
+
+/// Where the robot would go if it were alone: to the local goal, and along the route from there.
+Path Planner::Pipeline::desiredWay(const PlanRequest& request, const TrajectoryPoint& start) const {
+  PathSearchOptions search;
+  search.least_clearance = footprint_.inscribedRadius() + 0.01;
+  search.comfort_distance = options_.comfort_distance;
+  search.clearance_weight = options_.clearance_weight;
+  search.unknown_cost = options_.unknown_cost;
+  search.keep_discount = options_.keep_path_discount;
+  const FoundPath found = searchPath(surroundings_, start.pose.position(), local_goal_, path_, search);
+  if (found.points.empty()) return {start.pose.position()};
+  Path way = straightened(surroundings_, found.points, options_.comfort_distance);
+  if (!found.reaches) return resampled(way, kTubeStep);
+  const Path on = wayFrom(request.route.points, way.back(), kTellReach);
+  way.insert(way.end(), on.begin() + 1, on.end());
+  return wayFrom(way, start.pose.position(), kTellReach);
+}
+
+/// At the goal, unless somebody needs the place.
+PlanResult Planner::Pipeline::rest(const PlanRequest& request, const TrajectoryPoint& start) {
+  reached_ = true;
+  watch_.reset();
+  const Path here = {start.pose.position()};
+  const RightOfWay own = ownRight(request);
+  tell(own, here);
+  if (options_.conflict_resolution && isNearPeers(request)) {
+    const TrafficDecision decision = traffic_.decide(here, own, 0.0, request.now);
+    if (decision.in_the_way) {
+      look(request, start);
+      local_goal_ = request.goal;
+      return makeRoom(decision, request, start, true);
+    }
+  }
+  escape_.reset();
+  return keep(PlanCode::kArrived, "at the goal");
+}
+
+PlanResult Planner::Pipeline::negotiate(const PlanRequest& request, const TrajectoryPoint& start, bool committed_valid) {
+  const Path desired = desiredWay(request, start);
+  const TrafficDecision decision = traffic_.decide(desired, ownRight(request), start.twist.speed, request.now);
+  if (watch_.level() > 0 && request.now > passing_off_until_) passing_off_until_ = request.now + kPassingOff;
+  tell(decision.right, desired);
+  if (std::optional<Proposal> proposal = passBy(decision, desired, request, start)) {
+    escape_.reset();
+    tell(decision.right, wayFrom(proposal->path, start.pose.position(), kTellReach));
+    return commit(*proposal);
+  }
+  if (!decision.first.empty()) return makeRoom(decision, request, start, committed_valid);
+  escape_.reset();
+  return decided(request, start, bestProposal(request, start), committed_valid);
+}
+
+/// Past those who come towards this robot, each keeping right, and round those who stand and those who go first.
+std::optional<Proposal> Planner::Pipeline::passBy(const TrafficDecision& decision, const Path& desired,
+                                                  const PlanRequest& request, const TrajectoryPoint& start) const {
+  struct Strip {
+    Path middle;
+    double half_width;
+  };
+  std::vector<Strip> strips;
+  std::vector<PeerTube> bodies;
+  const bool keep_right = request.now > passing_off_until_;
+  for (const PeerTube& tube : decision.opposite) {
+    if (!keep_right) break;
+    const double separation = 0.5 * (tube.footprint.width + footprint_.width) + kSeparation;
+    strips.push_back(
+        {keepingRight(tube, desired, separation, surroundings_.obstacles()), 0.5 * tube.footprint.width + kPassingGap});
+  }
+  for (const PeerTube& tube : decision.first) {
+    if (keep_right && among(decision.opposite, tube.id)) continue;
+    if (decision.in_the_way) return std::nullopt;
+    strips.push_back({tube.way, 0.5 * tube.footprint.width + kPassingGap});
+  }
+  for (const PeerTube& tube : traffic_.tubes()) {
+    if (tube.standing && !among(decision.opposite, tube.id) && !among(decision.first, tube.id)) bodies.push_back(tube);
+  }
+  const double corner = footprint_.inscribedRadius() + kCloser;
+  const bool any_near = std::any_of(bodies.begin(), bodies.end(), [&](const PeerTube& body) {
+    return std::any_of(desired.begin(), desired.end(),
+                       [&](const Eigen::Vector2d& p) { return isUnder(body, p, corner + kPassingGap); });
+  });
+  if (strips.empty() && !any_near) return std::nullopt;
+  const Surroundings shape = surroundings_.with([&](const Eigen::Vector2d& p) {
+    return std::any_of(strips.begin(), strips.end(), [&](const Strip& s) { return isIn(s.middle, s.half_width, p); }) ||
+           std::any_of(bodies.begin(), bodies.end(), [&](const PeerTube& body) { return isUnder(body, p, kPassingGap); });
+  });
+  Attempt how = usualAttempt();
+  how.shape = &shape;
+  how.whole = true;
+  how.most = kDetour * std::min(options_.look_ahead, pathLength(desired)) + kDetourMore;
+  std::optional<Proposal> proposal = attempt(how, request, start);
+  const bool useful = proposal && (proposal->advance > kUsefulAdvance || proposal->end == DriveEnd::kPathEnd);
+  return useful ? proposal : std::nullopt;
+}
+
+/// Another goes first: up to where its way begins, or off it.
+PlanResult Planner::Pipeline::makeRoom(const TrafficDecision& decision, const PlanRequest& request, const TrajectoryPoint& start,
+                                       bool committed_valid) {
+  if (decision.in_the_way) {
+    if (const std::optional<Proposal> proposal = escape(decision, request, start)) {
+      tell(decision.right, wayFrom(proposal->path, start.pose.position(), kTellReach));
+      PlanResult result = commit(*proposal);
+      result.status = {PlanCode::kEscaping, "making room"};
+      return result;
+    }
+    tell(decision.right, {start.pose.position()});
+    return standAside(request, start);
+  }
+  escape_.reset();
+  const Surroundings shape = surroundings_.with([&](const Eigen::Vector2d& p) {
+    return std::any_of(decision.first.begin(), decision.first.end(), [&](const PeerTube& tube) {
+      return isIn(tube.way, 0.5 * tube.footprint.width + kPassingGap, p);
+    });
+  });
+  Attempt how = usualAttempt();
+  how.shape = &shape;
+  how.trim = kStandOff;
+  std::optional<Proposal> proposal = attempt(how, request, start);
+  const bool moves = std::abs(start.twist.speed) > kSlowSpeed;
+  if (proposal && (moves || proposal->advance > kWorthCreeping)) {
+    tell(decision.right, wayFrom(proposal->path, start.pose.position(), kTellReach));
+    PlanResult result = commit(*proposal);
+    result.status = {PlanCode::kYielding, "another goes first"};
+    return result;
+  }
+  tell(decision.right, {start.pose.position()});
+  (void)committed_valid;
+  return standAside(request, start);
+}
+
+std::optional<Proposal> Planner::Pipeline::escape(const TrafficDecision& decision, const PlanRequest& request,
+                                                  const TrajectoryPoint& start) {
+  failed_escapes_.erase(std::remove_if(failed_escapes_.begin(), failed_escapes_.end(),
+                                       [&](const auto& failed) { return failed.first < request.now; }),
+                        failed_escapes_.end());
+  if (escape_ && watch_.level() > 0) {
+    failed_escapes_.emplace_back(request.now + kFailedFor, *escape_);
+    escape_.reset();
+    watch_.reset();
+  }
+  for (int i = 0; i < kEscapeTries; ++i) {
+    std::vector<Eigen::Vector2d> failed;
+    for (const auto& [until, place] : failed_escapes_) failed.push_back(place);
+    const EscapeTask task{surroundings_,    footprint_,     start.pose, local_goal_, decision.first,
+                          traffic_.tubes(), decision.right, escape_,    failed};
+    const std::optional<Path> path = escapePath(task);
+    if (!path) {
+      if (i == 0 && failed.empty() && stands(start.twist)) traffic_.cannotMakeRoom(request.now, start.pose.position());
+      break;
+    }
+    if (std::optional<Proposal> proposal = escapeAlong(*path, request, start)) {
+      if (!escape_ || (*escape_ - path->back()).norm() > kAnotherEscape) ++escapes_;
+      escape_ = path->back();
+      return proposal;
+    }
+    failed_escapes_.emplace_back(request.now + kFailedShortly, path->back());
+    escape_.reset();
+  }
+  return std::nullopt;
+}
+
+/// By the usual manoeuvres, and from standing by a search among positions and headings.
+std::optional<Proposal> Planner::Pipeline::escapeAlong(const Path& path, const PlanRequest& request, const TrajectoryPoint& start) {
+  Attempt how = usualAttempt();
+  const Path straight = straightened(surroundings_, path, how.comfort_distance);
+  std::optional<Proposal> proposal = along(straight, how, start);
+  if (proposal || !stands(start.twist) || request.now - squeezed_at_ < kSqueezePeriod) return proposal;
+  squeezed_at_ = request.now;
+  const Surroundings shape = surroundings_.with([&](const Eigen::Vector2d& p) {
+    return std::any_of(traffic_.tubes().begin(), traffic_.tubes().end(),
+                       [&](const PeerTube& tube) { return isUnder(tube, p, tube.margin); });
+  });
+  how.shape = &shape;
+  how.squeeze = true;
+  return along(straight, how, start);
+}
+
+/// Standing, or braking to a stand.
+PlanResult Planner::Pipeline::standAside(const PlanRequest& request, const TrajectoryPoint& start) {
+  if (stands(start.twist) && (request.committed.empty() || stands(request.committed.at(request.start_time).twist))) {
+    PlanResult result = keep(PlanCode::kYielding, "another goes first");
+    const bool still_moves = !request.committed.empty() && request.committed.endTime() > request.start_time;
+    result.keep_committed = !still_moves;
+    if (still_moves) result.trajectory = SampledTrajectory::standing(start.pose, request.start_time);
+    return result;
+  }
+  return brake(request, start, PlanCode::kYielding, "another goes first");
+}
+
+}  // namespace parley

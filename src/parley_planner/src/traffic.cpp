@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "traffic.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace parley {
+
+namespace {
+
+constexpr double kBelieved = 3.0;        // [s] a motion told longer ago is not believed
+constexpr double kTrackReach = 0.9;      // [m] a track so near to where a peer should be is of that peer,
+constexpr double kTrackMiss = 0.45;      // [m] and contradicts it if it is further off
+constexpr int kSureTrack = 4;            // [-] scans
+constexpr double kBodyGrowth = 0.15;     // [m] returns so far outside a peer's footprint are its own
+constexpr double kMostUncertain = 0.15;  // [m]
+constexpr double kLentFor = 0.6;         // [s] a right of way is kept after it was last needed
+constexpr double kNoRoomFor = 1.0;       // [s] without anywhere to make room a robot is shut in,
+constexpr double kNoRoomBreak = 0.5;     // [s] with breaks shorter than this,
+constexpr double kShutInFor = 20.0;      // [s] for so long at most
+constexpr double kOutAgain = 4.0;        // [m] and until it has come so far
+constexpr double kKeepsTo = 0.6;         // [s] for which others surely keep to what they said
+constexpr double kUsualSpeed = 1.2;      // [m/s] at which robots are taken to get on
+constexpr double kAhead = 1.5;           // [s] by which a robot must be earlier to pass before one that goes first
+constexpr double kPassingGap = 0.12;     // [m] between two that pass each other
+constexpr double kAside = 0.25;          // [m] more, up to which two that come towards each other mind each other
+
+double clearOf(const Footprint& a, const Footprint& b) { return 0.5 * (a.width + b.width) + kPassingGap; }
+
+}  // namespace
+
+Traffic::Traffic(const PlannerOptions& options, const Footprint& footprint, const MotionLimits& limits)
+    : options_(options), footprint_(footprint), limits_(limits) {}
+
+void Traffic::reset() {
+  peers_.clear();
+  tubes_.clear();
+  careful_.clear();
+  lent_until_ = no_room_since_ = no_room_last_ = shut_in_until_ = -1e9;
+}
+
+void Traffic::cannotMakeRoom(double now, const Eigen::Vector2d& here) {
+  if (now - no_room_last_ > kNoRoomBreak) no_room_since_ = now;
+  no_room_last_ = now;
+  if (now - no_room_since_ < kNoRoomFor || isShutIn(now, here)) return;
+  shut_in_until_ = now + kShutInFor;
+  shut_in_at_ = here;
+}
+
+bool Traffic::isShutIn(double now, const Eigen::Vector2d& here) const {
+  return now < shut_in_until_ && (here - shut_in_at_).norm() < kOutAgain;
+}
+
+void Traffic::observe(const PlanRequest& request) {
+  peers_.clear();
+  careful_.clear();
+  tubes_.clear();
+  for (const PeerMotion& peer : request.peers) {
+    if (peer.trajectory.empty() || request.now - peer.heard > kBelieved || contradicted(peer, request)) continue;
+    peers_.push_back(peer);
+    careful_.push_back(peer);
+    if (const double freezes = request.now + kKeepsTo; peer.trajectory.endTime() > freezes) {
+      std::vector<TrajectoryPoint> points;
+      for (const TrajectoryPoint& point : peer.trajectory.points()) {
+        if (point.time < freezes) points.push_back(point);
+      }
+      points.push_back(peer.trajectory.at(freezes));
+      points.back().twist = {};
+      careful_.push_back(peer);
+      careful_.back().trajectory = SampledTrajectory(std::move(points));
+    }
+    const double margin = options_.peer_margin + std::min(kMostUncertain, 2.0 * peer.sigma);
+    tubes_.push_back(tubeOf(peer, request.now, margin));
+  }
+  withoutPeers(request);
+}
+
+/// What moves near a peer but not where it says it is belongs to it, and it does not do what it said.
+bool Traffic::contradicted(const PeerMotion& peer, const PlanRequest& request) const {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const TrackedObject& track : request.tracks) {
+    if (!track.has_moved || track.observations < kSureTrack) continue;
+    const Eigen::Vector2d expected = peer.trajectory.at(track.stamp).pose.position();
+    nearest = std::min(nearest, (track.position - expected).norm());
+  }
+  return nearest > kTrackMiss + 2.0 * peer.sigma && nearest < kTrackReach;
+}
+
+void Traffic::withoutPeers(const PlanRequest& request) {
+  scan_ = request.scan;
+  tracks_ = request.tracks;
+  for (const PeerMotion& peer : peers_) {
+    const Pose2 pose = peer.trajectory.at(request.scan.stamp).pose;
+    const double growth = kBodyGrowth + std::min(kMostUncertain, 2.0 * peer.sigma);
+    const Pose2 T_peer_scan = pose.inverse() * request.T_odom_scan;
+    for (std::size_t bin = 0; bin < scan_.binCount(); ++bin) {
+      const double range = static_cast<double>(scan_.ranges[bin]);
+      if (!std::isfinite(range) || !peer.footprint.contains(T_peer_scan * scan_.pointAt(bin, range), growth)) continue;
+      scan_.ranges[bin] = std::numeric_limits<float>::quiet_NaN();
+    }
+    const auto its = [&](const TrackedObject& track) {
+      const Pose2 there = peer.trajectory.at(track.stamp).pose;
+      return peer.footprint.contains(there.inverse() * track.position, growth + 0.1);
+    };
+    tracks_.erase(std::remove_if(tracks_.begin(), tracks_.end(), its), tracks_.end());
+  }
+}
+
+RightOfWay Traffic::rightNow(const RightOfWay& own, double now) const {
+  return now < lent_until_ && goesBefore(lent_, own) ? lent_ : own;
+}
+
+TrafficDecision Traffic::decide(const Path& way, const RightOfWay& own, double speed, double now) {
+  TrafficDecision decision;
+  decision.right = rightNow(own, now);
+  const double pace = std::max(kUsualSpeed, speed);
+  for (const PeerTube& tube : tubes_) {
+    const double clear = clearOf(footprint_, tube.footprint);
+    if (const auto near = meetingOf(way, tube, clear + kAside); near && near->head_on) decision.opposite.push_back(tube);
+    if (!goesBefore(tube.right, decision.right)) continue;
+    const auto meeting = meetingOf(way, tube, clear);
+    if (!meeting || !meeting->against) continue;
+    const double entered = meeting->peer_enters / std::max(kUsualSpeed, tube.speed);
+    const bool first_there = meeting->enters > 0.0 && !meeting->head_on && meeting->leaves / pace + kAhead < entered;
+    if (first_there) continue;
+    decision.first.push_back(tube);
+    const double corner = footprint_.circumscribedRadius() + 0.5 * tube.footprint.width;
+    if (placeIn(tube, way.front()).distance < std::max(clear, corner)) decision.in_the_way = true;
+  }
+  if (!decision.in_the_way) return decision;
+  for (const PeerTube& tube : decision.first) {
+    const RightOfWay lent{tube.right.priority, tube.right.holder, std::min(tube.right.depth + 1, 15)};
+    if (now >= lent_until_ || goesBefore(lent, lent_)) lent_ = lent;
+    lent_until_ = now + kLentFor;
+  }
+  decision.right = rightNow(own, now);
+  return decision;
+}
+
+}  // namespace parley
