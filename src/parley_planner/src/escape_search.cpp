@@ -12,7 +12,7 @@ namespace parley {
 namespace {
 
 constexpr int kStride = 2;               // [cells] lattice spacing
-constexpr double kReach = 9.0;           // [m] of way to an escape point
+constexpr double kReach = 25.0;          // [-] cost of the way to an escape point
 constexpr double kRoom = 0.35;           // [m] with less than this round its middle a robot cannot turn,
 constexpr double kRoomWeight = 4.0;      // [-] and a way through costs more
 constexpr double kStandingGap = 0.15;    // [m] between a robot that stands aside and one that passes
@@ -55,7 +55,25 @@ class EscapeSearch {
       least = *score;
       target = node;
     }
-    if (target < 0) target = furthestBack();
+    if (target < 0 && task_.room <= 0.0) target = furthestBack();
+    return pathTo(target);
+  }
+
+  std::optional<Path> awayFrom(const Eigen::Vector2d& place) const {
+    int target = -1;
+    double furthest = (task_.start.position() - place).norm() + kRetreat;
+    for (int node = 0; node < static_cast<int>(costs_.size()); ++node) {
+      if (costs_[static_cast<std::size_t>(node)] >= kInfinity || (position(node) - place).norm() <= furthest) continue;
+      furthest = (position(node) - place).norm();
+      target = node;
+    }
+    return pathTo(target);
+  }
+
+ private:
+  using Entry = std::pair<float, int>;
+
+  std::optional<Path> pathTo(int target) const {
     if (target < 0) return std::nullopt;
     Path path;
     for (int node = target; node >= 0; node = parents_[static_cast<std::size_t>(node)]) path.push_back(position(node));
@@ -64,9 +82,6 @@ class EscapeSearch {
     if (path.size() < 2) path.push_back(position(target));
     return path;
   }
-
- private:
-  using Entry = std::pair<float, int>;
 
   /// With room for the robot before the window's rim, beyond which nothing is known.
   bool isInside(const Eigen::Vector2i& cell) const {
@@ -118,15 +133,21 @@ class EscapeSearch {
     return 0.5 * tube.footprint.width + task_.footprint.inscribedRadius() + kStandingGap;
   }
 
+  /// Where the peer's way ends it stands, with any heading.
+  double endOf(const PeerTube& tube) const {
+    return task_.footprint.circumscribedRadius() + tube.footprint.circumscribedRadius() + kStandingGap;
+  }
+
   /// nullopt where it must not stand.
   std::optional<double> scoreOf(int node) const {
+    if (task_.room > 0.0 && roomAt(node) < task_.room) return std::nullopt;
     const Eigen::Vector2d p = position(node);
     const double turning = task_.footprint.circumscribedRadius() - task_.footprint.inscribedRadius();
     double score = static_cast<double>(costs_[static_cast<std::size_t>(node)]) + kProgressWeight * (p - task_.goal).norm();
     bool tight = roomAt(node) < task_.footprint.circumscribedRadius() + 0.03;
     for (const PeerTube& tube : task_.first) {
       const double distance = placeIn(tube, p).distance;
-      if (distance < clearOf(tube)) return std::nullopt;
+      if (distance < clearOf(tube) || (tube.way.back() - p).norm() < endOf(tube)) return std::nullopt;
       tight = tight || distance < clearOf(tube) + turning;
     }
     for (const PeerTube& other : task_.others) {
@@ -202,5 +223,9 @@ class EscapeSearch {
 }  // namespace
 
 std::optional<Path> escapePath(const EscapeTask& task) { return EscapeSearch(task).best(); }
+
+std::optional<Path> pathAwayFrom(const EscapeTask& task, const Eigen::Vector2d& place) {
+  return EscapeSearch(task).awayFrom(place);
+}
 
 }  // namespace parley

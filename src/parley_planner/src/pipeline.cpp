@@ -55,6 +55,7 @@ void Planner::Pipeline::reset() {
   traffic_.reset();
   intent_ = {};
   escape_.reset();
+  way_out_.reset();
   failed_escapes_.clear();
   passing_off_until_ = -1e9;
   reached_ = false;
@@ -76,12 +77,17 @@ PlanResult Planner::Pipeline::plan(const PlanRequest& request) {
   const Margins least{kLeastMargin, 0.3 * options_.margin_per_speed, options_.creep_speed};
   const bool valid = validator_.checkRest(request.committed, start.time, least).good();
 
+  const bool busy = valid && !request.committed.empty() && request.start_time < std::min(busy_until_, request.committed.endTime());
+  if (busy) return keep(code_, "");
+  if (way_out_ && !traffic_.isShutIn(request.now, start.pose.position())) way_out_.reset();
+  if (way_out_) return leave(request, start, valid);
   if (request.at_goal || arrived(request)) return rest(request, start);
+  rested_since_ = request.now;
   if (!request.route.exists()) {
     tell(ownRight(request), {start.pose.position()});
     return valid ? keep(PlanCode::kNoRoute, "no route") : brake(request, start, PlanCode::kNoRoute, "no route");
   }
-  if (valid && (mayKeep(request) || endsAtGoal(request))) return keep(PlanCode::kDriving, "");
+  if (valid && (mayKeep(request) || endsAtGoal(request))) return keep(code_, "");
   return replan(request, start, valid);
 }
 
@@ -118,7 +124,6 @@ bool Planner::Pipeline::arrived(const PlanRequest& request) {
 
 bool Planner::Pipeline::mayKeep(const PlanRequest& request) const {
   if (request.committed.empty() || request.start_time >= request.committed.endTime()) return false;
-  if (request.start_time < busy_until_) return true;
   if (isNearPeers(request)) return false;
   const bool alone = std::none_of(request.tracks.begin(), request.tracks.end(),
                                   [](const TrackedObject& track) { return track.has_moved || track.observations < kNewTrack; });
@@ -225,10 +230,11 @@ std::optional<Proposal> Planner::Pipeline::along(const Path& path, const Attempt
   return validator_.check(proposal->trajectory, start, judged).good() ? proposal : std::nullopt;
 }
 
-PlanResult Planner::Pipeline::commit(const Proposal& proposal) {
+PlanResult Planner::Pipeline::commit(const Proposal& proposal, PlanCode code) {
+  code_ = code;
   path_ = proposal.path;
   busy_until_ = proposal.busy_until;
-  PlanResult result = keep(PlanCode::kDriving, "");
+  PlanResult result = keep(code, code == PlanCode::kDriving ? "" : "another goes first");
   result.keep_committed = false;
   result.trajectory = proposal.trajectory;
   return result;

@@ -57,12 +57,14 @@ class Planner::Pipeline {
                       bool committed_valid);
   std::optional<Proposal> escape(const TrafficDecision& decision, const PlanRequest& request, const TrajectoryPoint& start);
   std::optional<Proposal> escapeAlong(const Path& path, const PlanRequest& request, const TrajectoryPoint& start);
+  void findWayOut(const TrafficDecision& decision, const PlanRequest& request, const TrajectoryPoint& start);
+  PlanResult leave(const PlanRequest& request, const TrajectoryPoint& start, bool committed_valid);
   PlanResult standAside(const PlanRequest& request, const TrajectoryPoint& start);
   void tell(const RightOfWay& right, const Path& way);
   std::optional<Proposal> bestProposal(const PlanRequest& request, const TrajectoryPoint& start);
   std::optional<Proposal> along(const Path& path, const Attempt& how, const TrajectoryPoint& start) const;
   std::optional<Proposal> attempt(const Attempt& how, const PlanRequest& request, const TrajectoryPoint& start) const;
-  PlanResult commit(const Proposal& proposal);
+  PlanResult commit(const Proposal& proposal, PlanCode code = PlanCode::kDriving);
   PlanResult brake(const PlanRequest& request, const TrajectoryPoint& start, PlanCode code, const std::string& why);
   PlanResult keep(PlanCode code, const std::string& why) const;
   bool somethingMoved(const PlanRequest& request) const;
@@ -80,9 +82,13 @@ class Planner::Pipeline {
   Intent intent_;
   std::optional<Eigen::Vector2d> escape_;    // [m] the escape point on the way to which it is
   std::vector<std::pair<double, Eigen::Vector2d>> failed_escapes_;  // [s] until when not to be tried, [m]
+  Eigen::Vector2d shut_in_at_ = Eigen::Vector2d::Zero();
+  std::optional<Eigen::Vector2d> way_out_;   // [m] of where it is shut in
   double passing_off_until_ = -1e9;          // [s] passing by did not work
   int escapes_ = 0;
-  bool reached_ = false;  // it has stood at this goal
+  bool reached_ = false;       // it has stood at this goal
+  double rested_since_ = 0.0;  // [s]
+  PlanCode code_ = PlanCode::kDriving;  // of what was committed last
   Eigen::Vector2d goal_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d local_goal_ = Eigen::Vector2d::Zero();
   Path path_;                  // that the last commitment follows

@@ -12,6 +12,8 @@ namespace parley {
 namespace {
 
 constexpr double kNearPeer = 10.0;        // [m] a peer further off does not matter
+constexpr double kRest = 0.7;             // [s] at its goal before a robot makes room for others
+constexpr double kOut = 0.7;              // [m] from the place where it wanted to go, a robot is out again
 constexpr double kWaitingGap = 0.8;       // [m] to a peer that this robot waits for
 constexpr double kTellReach = 8.0;        // [m] of the way that is told
 constexpr double kPassingGap = 0.12;      // [m] between two that pass each other
@@ -89,12 +91,12 @@ Path Planner::Pipeline::desiredWay(const PlanRequest& request, const TrajectoryP
 
 /// At the goal, unless somebody needs the place.
 PlanResult Planner::Pipeline::rest(const PlanRequest& request, const TrajectoryPoint& start) {
-  reached_ = true;
   watch_.reset();
+  reached_ = reached_ || request.now - rested_since_ > kRest;
   const Path here = {start.pose.position()};
   const RightOfWay own = ownRight(request);
   tell(own, here);
-  if (options_.conflict_resolution && isNearPeers(request)) {
+  if (reached_ && options_.conflict_resolution && isNearPeers(request)) {
     const TrafficDecision decision = traffic_.decide(here, own, 0.0, request.now);
     if (decision.in_the_way) {
       look(request, start);
@@ -170,9 +172,7 @@ PlanResult Planner::Pipeline::makeRoom(const TrafficDecision& decision, const Pl
   if (decision.in_the_way) {
     if (const std::optional<Proposal> proposal = escape(decision, request, start)) {
       tell(decision.right, wayFrom(proposal->path, start.pose.position(), kTellReach));
-      PlanResult result = commit(*proposal);
-      result.status = {PlanCode::kEscaping, "making room"};
-      return result;
+      return commit(*proposal, PlanCode::kEscaping);
     }
     tell(decision.right, {start.pose.position()});
     return standAside(request, start);
@@ -190,9 +190,7 @@ PlanResult Planner::Pipeline::makeRoom(const TrafficDecision& decision, const Pl
   const bool moves = std::abs(start.twist.speed) > kSlowSpeed;
   if (proposal && (moves || proposal->advance > kWorthCreeping)) {
     tell(decision.right, wayFrom(proposal->path, start.pose.position(), kTellReach));
-    PlanResult result = commit(*proposal);
-    result.status = {PlanCode::kYielding, "another goes first"};
-    return result;
+    return commit(*proposal, PlanCode::kYielding);
   }
   tell(decision.right, {start.pose.position()});
   (void)committed_valid;
@@ -216,7 +214,7 @@ std::optional<Proposal> Planner::Pipeline::escape(const TrafficDecision& decisio
                           traffic_.tubes(), decision.right, escape_,    failed};
     const std::optional<Path> path = escapePath(task);
     if (!path) {
-      if (i == 0 && failed.empty() && stands(start.twist)) traffic_.cannotMakeRoom(request.now, start.pose.position());
+      if (i == 0 && failed.empty() && stands(start.twist)) findWayOut(decision, request, start);
       break;
     }
     if (std::optional<Proposal> proposal = escapeAlong(*path, request, start)) {
@@ -228,6 +226,33 @@ std::optional<Proposal> Planner::Pipeline::escape(const TrafficDecision& decisio
     escape_.reset();
   }
   return std::nullopt;
+}
+
+/// There is nowhere to make room: others have to, for this robot to come out. One that has no goal left to go to leaves for
+/// where others can pass it.
+void Planner::Pipeline::findWayOut(const TrafficDecision& decision, const PlanRequest& request, const TrajectoryPoint& start) {
+  if (!way_out_ && !traffic_.cannotMakeRoom(request.now, start.pose.position())) return;
+  if (!reached_) return;
+  if (!way_out_) shut_in_at_ = start.pose.position();
+  const EscapeTask task{surroundings_,    footprint_,          start.pose,   local_goal_, decision.first,
+                        traffic_.tubes(), ownRight(request), std::nullopt, {},          2.0 * footprint_.circumscribedRadius()};
+  std::optional<Path> path = escapePath(task);
+  if (!path) path = pathAwayFrom(task, shut_in_at_);
+  way_out_ = path ? std::make_optional(path->back()) : std::nullopt;
+}
+
+/// Out of where it was shut in.
+PlanResult Planner::Pipeline::leave(const PlanRequest& request, const TrajectoryPoint& start, bool committed_valid) {
+  look(request, start);
+  local_goal_ = *way_out_;
+  if ((start.pose.position() - *way_out_).norm() < kOut) {
+    const bool has_room = surroundings_.obstacles().at(*way_out_) > 1.8 * footprint_.circumscribedRadius();
+    if (!has_room) findWayOut({}, request, start);
+    if (has_room || !way_out_) traffic_.isOutAgain();
+    if (has_room) way_out_.reset();
+    if (way_out_) local_goal_ = *way_out_;
+  }
+  return negotiate(request, start, committed_valid);
 }
 
 /// By the usual manoeuvres, and from standing by a search among positions and headings.

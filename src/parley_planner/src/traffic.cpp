@@ -19,7 +19,7 @@ constexpr double kLentFor = 0.6;         // [s] a right of way is kept after it 
 constexpr double kNoRoomFor = 1.0;       // [s] without anywhere to make room a robot is shut in,
 constexpr double kNoRoomBreak = 0.5;     // [s] with breaks shorter than this,
 constexpr double kShutInFor = 20.0;      // [s] for so long at most
-constexpr double kOutAgain = 4.0;        // [m] and until it has come so far
+constexpr double kOutAgain = 10.0;       // [m] and until it has come so far
 constexpr double kKeepsTo = 0.6;         // [s] for which others surely keep to what they said
 constexpr double kUsualSpeed = 1.2;      // [m/s] at which robots are taken to get on
 constexpr double kAhead = 1.5;           // [s] by which a robot must be earlier to pass before one that goes first
@@ -40,12 +40,13 @@ void Traffic::reset() {
   lent_until_ = no_room_since_ = no_room_last_ = shut_in_until_ = -1e9;
 }
 
-void Traffic::cannotMakeRoom(double now, const Eigen::Vector2d& here) {
+bool Traffic::cannotMakeRoom(double now, const Eigen::Vector2d& here) {
   if (now - no_room_last_ > kNoRoomBreak) no_room_since_ = now;
   no_room_last_ = now;
-  if (now - no_room_since_ < kNoRoomFor || isShutIn(now, here)) return;
+  if (now - no_room_since_ < kNoRoomFor) return false;
   shut_in_until_ = now + kShutInFor;
   shut_in_at_ = here;
+  return true;
 }
 
 bool Traffic::isShutIn(double now, const Eigen::Vector2d& here) const {
@@ -120,7 +121,8 @@ TrafficDecision Traffic::decide(const Path& way, const RightOfWay& own, double s
     if (const auto near = meetingOf(way, tube, clear + kAside); near && near->head_on) decision.opposite.push_back(tube);
     if (!goesBefore(tube.right, decision.right)) continue;
     const auto meeting = meetingOf(way, tube, clear);
-    if (!meeting || !meeting->against) continue;
+    // Who has nothing to do any more does not go in front of others either.
+    if (!meeting || (!meeting->against && own.priority > 0.0)) continue;
     const double entered = meeting->peer_enters / std::max(kUsualSpeed, tube.speed);
     const bool first_there = meeting->enters > 0.0 && !meeting->head_on && meeting->leaves / pace + kAhead < entered;
     if (first_there) continue;

@@ -40,8 +40,9 @@ class Traffic {
   const std::vector<PeerTube>& tubes() const { return tubes_; }
 
   /// There is nowhere to make room. Having said so for a while without a break, it is shut in: then others have to make room
-  /// for it, until it has come out.
-  void cannotMakeRoom(double now, const Eigen::Vector2d& here);
+  /// for it, until it has come out. Returns whether it is so now.
+  bool cannotMakeRoom(double now, const Eigen::Vector2d& here);
+  void isOutAgain() { shut_in_until_ = -1e9; }
   bool isShutIn(double now, const Eigen::Vector2d& here) const;
 
   /// `way`: where this robot would go if it were alone, from where it is. `own`: its right of way when nobody pushes it.
