@@ -40,7 +40,7 @@ DriveGenerator::Floor DriveGenerator::floorAt(const TrajectoryPoint& start, cons
   // A start that lacks the creeping margin may lose a little more of it, but never again and again down to nothing.
   const double floor = obstacles < kLastMargin ? obstacles - 1e-3 : std::max(kLastMargin, obstacles - kSlack);
   return {std::min(margins.creeping, floor), std::min(0.0, unseen - kSlack),
-          std::clamp(trackClearance(start, scene, start.time) - kSlack, 0.0, scene.track_margin),
+          std::min(trackClearance(start, scene, start.time) - kSlack, scene.track_margin),
           std::min(0.0, peersClearance(start, scene) - kSlack)};
 }
 

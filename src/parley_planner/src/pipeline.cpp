@@ -19,6 +19,7 @@ constexpr int kNewTrack = 4;              // [-] scans until a thing that does n
 constexpr double kSlowSpeed = 0.3;        // [m/s]
 constexpr double kWiderPush = 0.25;       // [m] more, where the usual path led nowhere
 constexpr double kBlockedReach = 1.5;     // [m] moving things nearer than this are what blocks
+constexpr double kRouteStays = 30.0;      // [s]
 constexpr double kLongestForecast = 0.5;  // [s] of the measured state
 
 SightLawOptions sightLaw(const PlannerOptions& options, const Footprint& footprint) {
@@ -57,9 +58,11 @@ void Planner::Pipeline::reset() {
   escape_.reset();
   way_out_.reset();
   failed_escapes_.clear();
-  passing_off_until_ = -1e9;
+  passing_off_until_ = stranger_until_ = blocked_since_ = blocked_last_ = -1e9;
+  stranger_.reset();
   reached_ = false;
   path_.clear();
+  route_ = {};
   planned_at_ = busy_until_ = squeezed_at_ = -1e9;
   arrived_ = false;
 }
@@ -83,7 +86,14 @@ PlanResult Planner::Pipeline::plan(const PlanRequest& request) {
   if (way_out_) return leave(request, start, valid);
   if (request.at_goal || arrived(request)) return rest(request, start);
   rested_since_ = request.now;
-  if (!request.route.exists()) {
+  if (request.route.exists()) {
+    route_ = request.route;
+    routed_at_ = request.now;
+  } else if (request.now - routed_at_ > kRouteStays || !isNearPeers(request)) {
+    route_ = {};  // teammates that stand in a narrow way close it for a while; others do not go away
+  }
+  if (!route_.exists()) {
+    if (const std::optional<PlanResult> result = makeWay(request, start, start.pose.position())) return *result;
     tell(ownRight(request), {start.pose.position()});
     return valid ? keep(PlanCode::kNoRoute, "no route") : brake(request, start, PlanCode::kNoRoute, "no route");
   }
@@ -145,13 +155,18 @@ void Planner::Pipeline::look(const PlanRequest& request, const TrajectoryPoint& 
     sight_law_.observe(surroundings_, traffic_.scan(), request.T_odom_scan, traffic_.tracks(), start.pose, request.now);
     speed_bound_ = std::min(limits_.speed, sight_law_.speedFor(sight_law_.gapAt(start.pose.position())));
   }
-  if (request.route.exists()) local_goal_ = localGoal(request.route, request.odometry.pose.position(), options_.look_ahead, request.map.frame, kWindowRim);
+  local_goal_ = localGoal(route_, request.odometry.pose.position(), options_.look_ahead, request.map.frame, kWindowRim);
   watch_.update(request.odometry.pose.position(), request.now);
 }
 
 PlanResult Planner::Pipeline::replan(const PlanRequest& request, const TrajectoryPoint& start, bool committed_valid) {
   planned_at_ = request.now;
   look(request, start);
+  if (stranger_ && request.now < stranger_until_) {
+    TrafficDecision decision{ownRight(request), {*stranger_}, {}, true};
+    tell(decision.right, {start.pose.position()});
+    return makeRoom(decision, request, start);
+  }
   if (options_.conflict_resolution && isNearPeers(request)) return negotiate(request, start, committed_valid);
   tell(ownRight(request), {start.pose.position()});
   return decided(request, start, bestProposal(request, start), committed_valid);
@@ -164,6 +179,7 @@ PlanResult Planner::Pipeline::decided(const PlanRequest& request, const Trajecto
     return committed_valid ? keep(stands(start.twist) ? PlanCode::kWaiting : PlanCode::kDriving, "waiting for a teammate")
                            : brake(request, start, PlanCode::kWaiting, "waiting for a teammate");
   }
+  if (options_.conflict_resolution && stands(start.twist) && somethingMoved(request)) standOff(request, start);
   const std::string why = somethingMoved(request) ? "blocked by something that moved" : "blocked";
   if (committed_valid) return keep(stands(start.twist) ? PlanCode::kBlocked : PlanCode::kDriving, why);
   return brake(request, start, PlanCode::kBlocked, why);

@@ -53,12 +53,13 @@ class Planner::Pipeline {
   PlanResult negotiate(const PlanRequest& request, const TrajectoryPoint& start, bool committed_valid);
   std::optional<Proposal> passBy(const TrafficDecision& decision, const Path& desired, const PlanRequest& request,
                                  const TrajectoryPoint& start) const;
-  PlanResult makeRoom(const TrafficDecision& decision, const PlanRequest& request, const TrajectoryPoint& start,
-                      bool committed_valid);
+  PlanResult makeRoom(const TrafficDecision& decision, const PlanRequest& request, const TrajectoryPoint& start);
+  std::optional<PlanResult> makeWay(const PlanRequest& request, const TrajectoryPoint& start, const Eigen::Vector2d& back_to);
   std::optional<Proposal> escape(const TrafficDecision& decision, const PlanRequest& request, const TrajectoryPoint& start);
   std::optional<Proposal> escapeAlong(const Path& path, const PlanRequest& request, const TrajectoryPoint& start);
   void findWayOut(const TrafficDecision& decision, const PlanRequest& request, const TrajectoryPoint& start);
   PlanResult leave(const PlanRequest& request, const TrajectoryPoint& start, bool committed_valid);
+  void standOff(const PlanRequest& request, const TrajectoryPoint& start);
   PlanResult standAside(const PlanRequest& request, const TrajectoryPoint& start);
   void tell(const RightOfWay& right, const Path& way);
   std::optional<Proposal> bestProposal(const PlanRequest& request, const TrajectoryPoint& start);
@@ -82,6 +83,11 @@ class Planner::Pipeline {
   Intent intent_;
   std::optional<Eigen::Vector2d> escape_;    // [m] the escape point on the way to which it is
   std::vector<std::pair<double, Eigen::Vector2d>> failed_escapes_;  // [s] until when not to be tried, [m]
+  std::optional<PeerTube> stranger_;  // that it makes room for, unheard
+  double stranger_until_ = -1e9;      // [s]
+  double blocked_since_ = -1e9;       // [s] by something that moves and is not heard
+  double blocked_last_ = -1e9;        // [s]
+  std::uint32_t stand_offs_ = 0;
   Eigen::Vector2d shut_in_at_ = Eigen::Vector2d::Zero();
   std::optional<Eigen::Vector2d> way_out_;   // [m] of where it is shut in
   double passing_off_until_ = -1e9;          // [s] passing by did not work
@@ -91,6 +97,8 @@ class Planner::Pipeline {
   PlanCode code_ = PlanCode::kDriving;  // of what was committed last
   Eigen::Vector2d goal_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d local_goal_ = Eigen::Vector2d::Zero();
+  Route route_;                // the last one there was
+  double routed_at_ = -1e9;    // [s]
   Path path_;                  // that the last commitment follows
   double speed_bound_ = 0.0;   // [m/s] by sight, where the robot is
   double planned_at_ = -1e9;   // [s]

@@ -14,6 +14,10 @@ namespace {
 constexpr double kNearPeer = 10.0;        // [m] a peer further off does not matter
 constexpr double kRest = 0.7;             // [s] at its goal before a robot makes room for others
 constexpr double kOut = 0.7;              // [m] from the place where it wanted to go, a robot is out again
+constexpr double kBlockedBreak = 1.0;    // [s]
+constexpr double kLeastPatience = 2.0;   // [s] a robot waits for a stranger to go away,
+constexpr double kMorePatience = 5.0;    // [s] or up to so much longer
+constexpr double kStrangerReach = 5.0;   // [m] behind this robot
 constexpr double kWaitingGap = 0.8;       // [m] to a peer that this robot waits for
 constexpr double kTellReach = 8.0;        // [m] of the way that is told
 constexpr double kPassingGap = 0.12;      // [m] between two that pass each other
@@ -40,6 +44,13 @@ bool isIn(const Path& middle, double half_width, const Eigen::Vector2d& p) {
 
 bool isUnder(const PeerTube& peer, const Eigen::Vector2d& p, double growth) {
   return peer.footprint.contains(peer.pose.inverse() * p, growth);
+}
+
+/// In [0, 1), another one for each robot and each time.
+double shareOf(std::uint32_t id, std::uint32_t time) {
+  std::uint32_t hash = (id ^ (time * 2654435761U)) * 2246822519U;
+  hash = (hash ^ (hash >> 15)) * 3266489917U;
+  return static_cast<double>(hash >> 16) / 65536.0;
 }
 
 bool among(const std::vector<PeerTube>& tubes, std::uint32_t id) {
@@ -84,7 +95,7 @@ Path Planner::Pipeline::desiredWay(const PlanRequest& request, const TrajectoryP
   if (found.points.empty()) return {start.pose.position()};
   Path way = straightened(surroundings_, found.points, options_.comfort_distance);
   if (!found.reaches) return resampled(way, kTubeStep);
-  const Path on = wayFrom(request.route.points, way.back(), kTellReach);
+  const Path on = wayFrom(route_.points, way.back(), kTellReach);
   way.insert(way.end(), on.begin() + 1, on.end());
   return wayFrom(way, start.pose.position(), kTellReach);
 }
@@ -93,19 +104,24 @@ Path Planner::Pipeline::desiredWay(const PlanRequest& request, const TrajectoryP
 PlanResult Planner::Pipeline::rest(const PlanRequest& request, const TrajectoryPoint& start) {
   watch_.reset();
   reached_ = reached_ || request.now - rested_since_ > kRest;
-  const Path here = {start.pose.position()};
-  const RightOfWay own = ownRight(request);
-  tell(own, here);
-  if (reached_ && options_.conflict_resolution && isNearPeers(request)) {
-    const TrafficDecision decision = traffic_.decide(here, own, 0.0, request.now);
-    if (decision.in_the_way) {
-      look(request, start);
-      local_goal_ = request.goal;
-      return makeRoom(decision, request, start, true);
-    }
+  if (reached_) {
+    if (const std::optional<PlanResult> result = makeWay(request, start, request.goal)) return *result;
   }
+  tell(ownRight(request), {start.pose.position()});
   escape_.reset();
   return keep(PlanCode::kArrived, "at the goal");
+}
+
+/// A robot that would stay where it is, but stands in the way of one that goes first.
+std::optional<PlanResult> Planner::Pipeline::makeWay(const PlanRequest& request, const TrajectoryPoint& start,
+                                                     const Eigen::Vector2d& back_to) {
+  if (!options_.conflict_resolution || !isNearPeers(request)) return std::nullopt;
+  const TrafficDecision decision =
+      traffic_.decide({start.pose.position()}, ownRight(request), start.twist.speed, request.now);
+  if (!decision.in_the_way) return std::nullopt;
+  look(request, start);
+  local_goal_ = back_to;
+  return makeRoom(decision, request, start);
 }
 
 PlanResult Planner::Pipeline::negotiate(const PlanRequest& request, const TrajectoryPoint& start, bool committed_valid) {
@@ -118,7 +134,7 @@ PlanResult Planner::Pipeline::negotiate(const PlanRequest& request, const Trajec
     tell(decision.right, wayFrom(proposal->path, start.pose.position(), kTellReach));
     return commit(*proposal);
   }
-  if (!decision.first.empty()) return makeRoom(decision, request, start, committed_valid);
+  if (!decision.first.empty()) return makeRoom(decision, request, start);
   escape_.reset();
   return decided(request, start, bestProposal(request, start), committed_valid);
 }
@@ -167,8 +183,7 @@ std::optional<Proposal> Planner::Pipeline::passBy(const TrafficDecision& decisio
 }
 
 /// Another goes first: up to where its way begins, or off it.
-PlanResult Planner::Pipeline::makeRoom(const TrafficDecision& decision, const PlanRequest& request, const TrajectoryPoint& start,
-                                       bool committed_valid) {
+PlanResult Planner::Pipeline::makeRoom(const TrafficDecision& decision, const PlanRequest& request, const TrajectoryPoint& start) {
   if (decision.in_the_way) {
     if (const std::optional<Proposal> proposal = escape(decision, request, start)) {
       tell(decision.right, wayFrom(proposal->path, start.pose.position(), kTellReach));
@@ -193,7 +208,6 @@ PlanResult Planner::Pipeline::makeRoom(const TrafficDecision& decision, const Pl
     return commit(*proposal, PlanCode::kYielding);
   }
   tell(decision.right, {start.pose.position()});
-  (void)committed_valid;
   return standAside(request, start);
 }
 
@@ -269,6 +283,28 @@ std::optional<Proposal> Planner::Pipeline::escapeAlong(const Path& path, const P
   how.shape = &shape;
   how.squeeze = true;
   return along(straight, how, start);
+}
+
+/// Blocked by somebody who is not heard. Nothing can be agreed: after a while of its own choice, different for each robot and
+/// each time, it makes room as if the other wanted to pass right through it, for a while of its own choice.
+void Planner::Pipeline::standOff(const PlanRequest& request, const TrajectoryPoint& start) {
+  if (request.now - blocked_last_ > kBlockedBreak) blocked_since_ = request.now;
+  blocked_last_ = request.now;
+  const double patience = kLeastPatience + kMorePatience * shareOf(request.id, stand_offs_);
+  if (request.now - blocked_since_ < patience) return;
+  const Eigen::Vector2d here = start.pose.position();
+  const auto nearest = std::min_element(
+      traffic_.tracks().begin(), traffic_.tracks().end(), [&](const TrackedObject& a, const TrackedObject& b) {
+        return std::make_pair(!a.has_moved, (a.position - here).norm()) < std::make_pair(!b.has_moved, (b.position - here).norm());
+      });
+  if (nearest == traffic_.tracks().end() || !nearest->has_moved) return;
+  ++stand_offs_;
+  blocked_since_ = request.now;
+  stranger_until_ = request.now + kLeastPatience + kMorePatience * shareOf(request.id, stand_offs_ + 1000);
+  const Eigen::Vector2d towards = (here - nearest->position).normalized();
+  const Path through = {nearest->position, here, here + kStrangerReach * towards};
+  stranger_ = PeerTube{0, {3.0, 0, 0}, footprint_, {nearest->position.x(), nearest->position.y(), std::atan2(towards.y(), towards.x())},
+                       0.0, resampled(through, kTubeStep), options_.peer_margin, true};
 }
 
 /// Standing, or braking to a stand.

@@ -115,7 +115,7 @@ Verdict TrajectoryValidator::checkPlaces(const std::vector<TrajectoryPoint>& poi
                                          double trust_from) const {
   // Where the robot already is cannot be helped; it must not get worse.
   const double had_room = obstacleDistance(points.front().pose) - kSlack;
-  const double had_gap = std::max(0.0, trackDistance(points.front()) - kSlack);
+  const double had_gap = trackDistance(points.front()) - kSlack;
   const double had_peer = peerDistance(points.front(), kNever) - kSlack;
   const int had_unseen = std::max(kUnseenSpecks, unseenCells(points.front().pose));
   for (const TrajectoryPoint& point : points) {

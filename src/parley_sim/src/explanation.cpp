@@ -87,6 +87,11 @@ void writeTeam(std::ostream& out, const RobotStack& stack, double now) {
   if (stack.team() == nullptr) return;
   out << "self      ";
   writeIntent(out, stack.lastPlan().intent);
+  for (const auto& [id, mate] : stack.team()->teammates()) {
+    constexpr const char* kStates[] = {"unknown", "candidate", "tentative", "confirmed"};
+    out << "teammate   " << mate.name << " " << kStates[static_cast<int>(mate.estimate.state)]
+        << (mate.estimate.direct ? ", measured here" : "") << ", support " << mate.estimate.support << "\n";
+  }
   for (const PeerMotion& peer : stack.team()->motions(now)) {
     const auto mate = stack.team()->teammates().find(peer.id);
     out << "peer       " << (mate != stack.team()->teammates().end() ? mate->second.name : "") << " at";
