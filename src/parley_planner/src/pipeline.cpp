@@ -63,6 +63,7 @@ void Planner::Pipeline::reset() {
   reached_ = false;
   path_.clear();
   route_ = {};
+  desired_.clear();
   planned_at_ = busy_until_ = squeezed_at_ = -1e9;
   arrived_ = false;
 }
@@ -152,7 +153,10 @@ void Planner::Pipeline::look(const PlanRequest& request, const TrajectoryPoint& 
   surroundings_ = Surroundings(request.map, traffic_.scan(), request.T_odom_scan, traffic_.tracks());
   speed_bound_ = limits_.speed;
   if (options_.sight_law) {
-    sight_law_.observe(surroundings_, traffic_.scan(), request.T_odom_scan, traffic_.tracks(), start.pose, request.now);
+    sight_law_.setTeamKnown(request.team_known);
+    std::vector<TrackedObject> moving = traffic_.oncoming(desired_, request.now);
+    moving.insert(moving.end(), traffic_.tracks().begin(), traffic_.tracks().end());
+    sight_law_.observe(surroundings_, traffic_.scan(), request.T_odom_scan, moving, start.pose, request.now);
     speed_bound_ = std::min(limits_.speed, sight_law_.speedFor(sight_law_.gapAt(start.pose.position())));
   }
   local_goal_ = localGoal(route_, request.odometry.pose.position(), options_.look_ahead, request.map.frame, kWindowRim);

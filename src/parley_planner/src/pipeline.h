@@ -97,6 +97,7 @@ class Planner::Pipeline {
   PlanCode code_ = PlanCode::kDriving;  // of what was committed last
   Eigen::Vector2d goal_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d local_goal_ = Eigen::Vector2d::Zero();
+  Path desired_;               // [m] where it would have gone at the last plan, if it were alone
   Route route_;                // the last one there was
   double routed_at_ = -1e9;    // [s]
   Path path_;                  // that the last commitment follows

@@ -126,6 +126,7 @@ std::optional<PlanResult> Planner::Pipeline::makeWay(const PlanRequest& request,
 
 PlanResult Planner::Pipeline::negotiate(const PlanRequest& request, const TrajectoryPoint& start, bool committed_valid) {
   const Path desired = desiredWay(request, start);
+  desired_ = desired;
   const TrafficDecision decision = traffic_.decide(desired, ownRight(request), start.twist.speed, request.now);
   if (watch_.level() > 0 && request.now > passing_off_until_) passing_off_until_ = request.now + kPassingOff;
   tell(decision.right, desired);

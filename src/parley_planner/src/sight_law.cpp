@@ -322,7 +322,8 @@ void SightLaw::addIntruder(const Eigen::Vector2d& there, double reach, double gr
 }
 
 double SightLaw::speedFor(double gap) const {
-  const double free = std::max(0.0, gap - options_.contact_distance);
+  const double free = std::max(0.0, gap - options_.contact_distance) * (team_known_ ? 2.0 : 1.0);
+  // Of two that brake alike each has half the gap; alone, all of it.
   const double a = limits_.acceleration, t = options_.reaction_time;
   return std::max(options_.least_speed, a * (std::sqrt(t * t + free / a) - t));
 }

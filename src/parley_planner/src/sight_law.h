@@ -32,6 +32,8 @@ class SightLaw {
   SightLaw(const SightLawOptions& options, const MotionLimits& limits);
 
   void reset();
+  /// Whether all robots near are known to be where they say: then what is hidden may stand or walk, but no robot comes from there.
+  void setTeamKnown(bool known) { team_known_ = known; }
   /// Takes in what the newest scan sees at `now` [s] from `pose`, and how far off on the way to each place the nearest
   /// possible intruder is.
   void observe(const Surroundings& surroundings, const ObstacleScan& scan, const Pose2& T_odom_scan,
@@ -74,6 +76,7 @@ class SightLaw {
                const Pose2& pose, double now);
   void addIntruder(const Eigen::Vector2d& there, double reach, double grace, const Mask& prices, Costs& sources) const;
 
+  bool team_known_ = false;
   SightLawOptions options_;
   MotionLimits limits_;
   GridFrame frame_;

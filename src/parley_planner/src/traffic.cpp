@@ -108,6 +108,24 @@ void Traffic::withoutPeers(const PlanRequest& request) {
   }
 }
 
+std::vector<TrackedObject> Traffic::oncoming(const Path& way, double now) const {
+  std::vector<TrackedObject> result;
+  for (const PeerTube& tube : tubes_) {
+    const auto meeting = meetingOf(way, tube, clearOf(footprint_, tube.footprint));
+    if (!meeting || !meeting->against) continue;
+    TrackedObject object;
+    object.id = -1;
+    object.stamp = now;
+    object.position = tube.pose.position();
+    object.velocity = tube.speed * tube.pose.direction();
+    object.radius = 0.5 * tube.footprint.width;
+    object.observations = kSureTrack;
+    object.moving = object.has_moved = true;
+    result.push_back(object);
+  }
+  return result;
+}
+
 RightOfWay Traffic::rightNow(const RightOfWay& own, double now) const {
   return now < lent_until_ && goesBefore(lent_, own) ? lent_ : own;
 }

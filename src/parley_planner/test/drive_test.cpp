@@ -167,7 +167,8 @@ TEST_F(GeneratorTest, TurnsOnlyWhereItsCornersPass) {
   world.fill(5.25, 5.25, 5.35, 5.35, true);  // in the way of the left front corner
   const Surroundings surroundings(seenMap(world), {}, {}, {});
   const std::vector<TrackedObject> tracks;
-  const DriveScene scene{surroundings, tracks, 1.5, 0.1};
+  const std::vector<PeerMotion> peers;
+  const DriveScene scene{surroundings, tracks, 1.5, 0.1, peers, 0.08};
   const TrajectoryPoint start{0.0, {5.0, 5.0, 0.0}, {}};
   EXPECT_TRUE(generator_.turn(start, 1.6, scene, {0.02, 0.04, 0.2}).empty());
   EXPECT_FALSE(generator_.turn(start, -0.8, scene, {0.02, 0.04, 0.2}).empty());

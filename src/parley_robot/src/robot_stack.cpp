@@ -190,6 +190,7 @@ void RobotStack::planMotion(double now, StageTimes& times) {
                               plan_.trajectory(),
                               team_ ? team_->id() : 0,
                               team_ ? team_->motions(now) : std::vector<PeerMotion>{},
+                              team_ && team_->isTeamKnown(now),
                               at_goal};
     last_plan_ = planner_.plan(request);
   });

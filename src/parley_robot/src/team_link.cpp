@@ -23,6 +23,9 @@ constexpr double kFreshTrajectory = 3.0;  // [s] a body is where it said that it
 constexpr double kFreshBeacon = 0.5;      // [s] else where its last beacon, younger than this, says
 constexpr std::size_t kMostCorners = 15;  // [-] of a way that is told
 constexpr double kCornerTolerance = 0.08; // [m]
+constexpr double kLostTeammate = 6.0;    // [s] a robot whose place is unknown may still be near when it was last heard
+constexpr double kRadioWorked = 30.0;    // [s] since a teammate was heard well
+constexpr double kGoodLink = 0.6;        // [-] share of its packets
 constexpr double kBodyMargin = 0.05;      // [m] beyond the pose's deviation
 
 /// What relative localization calls a robot.
@@ -305,6 +308,18 @@ std::vector<PeerMotion> TeamLink::motions(double now) const {
     motions.push_back(std::move(motion));
   }
   return motions;
+}
+
+bool TeamLink::isTeamKnown(double now) const {
+  bool radio_works = false;
+  for (const PeerState& peer : exchange_.peers(now)) {
+    const auto found = teammates_.find(peer.id);
+    const bool known = found != teammates_.end() && found->second.estimate.state == PoseState::kConfirmed && peer.clock_known;
+    const double silent = now - peer.last_heard;
+    if (silent < kLostTeammate && !known) return false;
+    radio_works = radio_works || (silent < kRadioWorked && peer.heard > kGoodLink);
+  }
+  return radio_works;
 }
 
 void TeamLink::setIntent(const Intent& intent) {

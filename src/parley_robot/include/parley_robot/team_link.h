@@ -56,6 +56,8 @@ class TeamLink {
 
   /// Those whose place is known well enough, with what they said they will do.
   std::vector<PeerMotion> motions(double now) const;
+  /// Whether the radio works and every robot that is near enough to be heard is where it says: nobody comes unexpectedly.
+  bool isTeamKnown(double now) const;
   /// Where this robot means to go, to be told.
   void setIntent(const Intent& intent);
   /// The number by which teammates know this robot.
