@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace parley {
 
@@ -24,13 +25,18 @@ SampledTrajectory brakingAlong(const SampledTrajectory& path, const TrajectoryPo
                                double time_step) {
   double path_time = from.time;
   return brakingTrajectory(from, limits, time_step, [&](const Twist2& before, double speed_after) {
-    double curvature = before.speed != 0.0 ? before.turn_rate / before.speed : 0.0;
-    const Twist2 reference = path.at(path_time).twist;
-    if (std::abs(reference.speed) > kSlow && reference.speed * before.speed > 0.0) {
-      curvature = reference.turn_rate / reference.speed;
-      path_time += time_step * 0.5 * (before.speed + speed_after) / reference.speed;
-    }
-    return curvature;
+    const auto reference = [&](double time) {
+      const Twist2 twist = path.at(time).twist;
+      return std::abs(twist.speed) > kSlow && twist.speed * before.speed > 0.0 ? std::optional<Twist2>(twist) : std::nullopt;
+    };
+    // The middle of the step and its end: a stop that is begun anew with each plan would add up what the start is off by.
+    const double driven = time_step * 0.5 * (before.speed + speed_after);
+    const std::optional<Twist2> start = reference(path_time);
+    const std::optional<Twist2> middle = start ? reference(path_time + 0.5 * driven / start->speed) : std::nullopt;
+    if (middle) path_time += driven / middle->speed;
+    const std::optional<Twist2> end = middle ? reference(path_time) : std::nullopt;
+    if (end) return end->turn_rate / end->speed;
+    return before.speed != 0.0 ? before.turn_rate / before.speed : 0.0;
   });
 }
 

@@ -49,6 +49,31 @@ TEST(BrakingAlong, StaysOnThePath) {
   }
 }
 
+TEST(BrakingAlong, DoesNotDriftWhenItIsBegunAnew) {
+  const MotionLimits limits = robotLimits();
+  // From straight on into a bend, as tight as the drive can take it up at this speed.
+  std::vector<TrajectoryPoint> points{{2.0, {5.0, 5.0, 0.4}, {1.8, 0.0}}};
+  while (points.size() < 60) {
+    TrajectoryPoint p = points.back();
+    p.time += kStep;
+    p.twist.turn_rate = std::min(1.4, p.twist.turn_rate + 0.5 * limits.turn_acceleration * kStep);
+    p.pose = integrateTwist(points.back().pose, 1.8, 0.5 * (points.back().twist.turn_rate + p.twist.turn_rate), kStep);
+    points.push_back(p);
+  }
+  const SampledTrajectory path(points);
+  SampledTrajectory stop = brakingAlong(path, path.at(2.2), limits, kStep);
+  for (int plan = 1; plan < 8; ++plan) stop = brakingAlong(stop, stop.at(2.2 + 0.1 * plan), limits, kStep);
+  const Pose2 end = stop.points().back().pose;
+  double nearest = 1e9, yaw = 0.0;
+  for (double time = 2.0; time < path.endTime(); time += 0.005) {
+    const double distance = (path.at(time).pose.position() - end.position()).norm();
+    if (distance < nearest) yaw = path.at(time).pose.yaw;
+    nearest = std::min(nearest, distance);
+  }
+  EXPECT_LT(nearest, 0.02);
+  EXPECT_NEAR(angleBetween(yaw, end.yaw), 0.0, 0.03);
+}
+
 TEST(SafestStop, TakesTheWayThatIsFree) {
   const TrajectoryPoint start{2.0, {4.0, 5.0, 0.0}, {1.6, 0.0}};
   const std::vector<TrackedObject> tracks;
