@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
 
 namespace parley {
 
@@ -12,11 +13,19 @@ namespace {
 constexpr double kSlow = 0.05;     // [m/s] a slower reference's curvature says nothing
 constexpr double kContact = 0.01;  // [m] nearer than this counts as touching
 
-/// Speed at the first touch; zero if there is none. [m/s]
-double speedAtContact(const TrajectoryValidator& validator, const SampledTrajectory& trajectory) {
-  const Verdict verdict = validator.checkRest(trajectory, trajectory.startTime(), {kContact, 0.0, 0.0});
-  const bool touches = verdict.flaw == Flaw::kObstacle || verdict.flaw == Flaw::kTrack;
-  return touches ? std::abs(trajectory.at(verdict.time).twist.speed) + kSlow : 0.0;
+/// How fast a stop is where it first touches what stands, and where it first touches what moves; zero where it does not.
+/// Compared in this order: a wall is where it is, but what moves may brake or leave, and its disc is larger than itself.
+struct Contacts {
+  double standing = 0.0;  // [m/s]
+  double moving = 0.0;    // [m/s]
+  bool operator<(const Contacts& other) const { return std::tie(standing, moving) < std::tie(other.standing, other.moving); }
+};
+
+Contacts contactsOf(const TrajectoryValidator& validator, const SampledTrajectory& stop) {
+  const auto speedAt = [&](const Verdict& verdict) {
+    return verdict.good() ? 0.0 : std::abs(stop.at(verdict.time).twist.speed) + kSlow;
+  };
+  return {speedAt(validator.checkObstacles(stop.points(), {kContact, 0.0, 0.0})), speedAt(validator.checkTracks(stop.points()))};
 }
 
 }  // namespace
@@ -46,11 +55,9 @@ SampledTrajectory safestStop(const TrajectoryValidator& validator, const Sampled
   if (!committed.empty()) choices.push_back(brakingAlong(committed, from, limits, time_step));
   choices.push_back(brakingTrajectory(from, limits, time_step));
   choices.push_back(brakingTrajectory(from, limits, time_step, [](const Twist2&, double) { return 0.0; }));
-  const auto slowest =
-      std::min_element(choices.begin(), choices.end(), [&](const SampledTrajectory& a, const SampledTrajectory& b) {
-        return speedAtContact(validator, a) < speedAtContact(validator, b);
-      });
-  return *slowest;
+  return *std::min_element(choices.begin(), choices.end(), [&](const SampledTrajectory& a, const SampledTrajectory& b) {
+    return contactsOf(validator, a) < contactsOf(validator, b);
+  });
 }
 
 }  // namespace parley

@@ -52,10 +52,14 @@ class TrajectoryValidator {
   Verdict check(const SampledTrajectory& trajectory, const TrajectoryPoint& begin, const Margins& margins) const;
   /// What is left of a committed one from `time` [s] on: the surroundings only.
   Verdict checkRest(const SampledTrajectory& trajectory, double time, const Margins& margins) const;
+  /// What stands alone, and what moves alone.
+  Verdict checkObstacles(const std::vector<TrajectoryPoint>& points, const Margins& margins) const;
+  Verdict checkTracks(const std::vector<TrajectoryPoint>& points) const;
 
  private:
   Verdict checkMotion(const std::vector<TrajectoryPoint>& points, const TrajectoryPoint& begin) const;
   Verdict checkPlaces(const std::vector<TrajectoryPoint>& points, const Margins& margins) const;
+  Verdict checkUnseen(const std::vector<TrajectoryPoint>& points) const;
   void addPoint(const Eigen::Vector2d& p_odom);
   double obstacleDistance(const Pose2& pose) const;
   double trackDistance(const TrajectoryPoint& point) const;

@@ -115,6 +115,33 @@ TEST(SafestStop, IsSlowestWhereItTouches) {
   EXPECT_NEAR(stop.duration(), 2.0 / robotLimits().acceleration, 2.0 * kStep);
 }
 
+TEST(SafestStop, DoesNotGiveUpTheWayPastAWallForOnePastWhatMoves) {
+  const TrajectoryPoint start{2.0, {4.0, 5.0, 0.0}, {1.8, 0.0}};
+  TrajectoryPoint turning = start;
+  turning.twist.turn_rate = 1.2;
+  const SampledTrajectory left = bend(turning, 2.0, 1.8);
+  World world(10, 10, false);
+  world.fill(4.0, 4.0, 6.0, 4.7, true);
+  world.fill(5.15, 4.0, 5.3, 5.0, true);  // whoever does not turn runs into this
+  const LocalMap map = seenMap(world);
+  const ObstacleScan scan;
+  TrackedObject robot;  // beside the left turn, going away; its disc reaches into both ways
+  robot.stamp = 2.0;
+  robot.position = {4.6, 5.95};
+  robot.velocity = {0.0, 0.2};
+  robot.radius = 0.6;
+  robot.moving = robot.has_moved = true;
+  const std::vector<TrackedObject> tracks{robot};
+  TrajectoryValidator validator(robotFootprint(), robotLimits(), 1.5, 0.1);
+  validator.observe({map, scan, {}, tracks});
+  const Margins contact{0.01, 0.0, 0.0};
+  const SampledTrajectory along = brakingAlong(left, turning, robotLimits(), kStep);
+  ASSERT_TRUE(validator.checkObstacles(along.points(), contact).good());
+  ASSERT_EQ(validator.checkTracks(along.points()).flaw, Flaw::kTrack);
+  const SampledTrajectory stop = safestStop(validator, left, turning, robotLimits(), kStep);
+  for (const TrajectoryPoint& p : stop.points()) EXPECT_FALSE(world.touches(robotFootprint(), p.pose)) << p.time;
+}
+
 TEST(FreshPieces, AThingByItselfIsOne) {
   const std::vector<FreshPiece> pieces = freshPieces(wall(-0.3, 0.3, 2.0, -1.0, 1.0), 1.2, 0.2);
   ASSERT_EQ(pieces.size(), 1U);
