@@ -19,6 +19,7 @@ constexpr int kNewTrack = 4;              // [-] scans until a thing that does n
 constexpr double kSlowSpeed = 0.3;        // [m/s]
 constexpr double kWiderPush = 0.25;       // [m] more, where the usual path led nowhere
 constexpr double kBlockedReach = 1.5;     // [m] moving things nearer than this are what blocks
+constexpr double kSightSlack = 0.1;       // [m/s]
 constexpr double kLongestForecast = 0.5;  // [s] of the measured state
 
 SightLawOptions sightLaw(const PlannerOptions& options, const Footprint& footprint) {
@@ -72,7 +73,9 @@ PlanResult Planner::Pipeline::plan(const PlanRequest& request) {
     return keep(PlanCode::kArrived, "at the goal");
   }
   if (!request.route.exists()) {
-    return valid ? keep(PlanCode::kNoRoute, "no route") : brake(request, start, PlanCode::kNoRoute, "no route");
+    look(request, start);
+    return valid && heedsSight(start) ? keep(PlanCode::kNoRoute, "no route")
+                                      : brake(request, start, PlanCode::kNoRoute, "no route");
   }
   if (valid && (mayKeep(request) || endsAtGoal(request))) return keep(PlanCode::kDriving, "");
   return replan(request, start, valid);
@@ -132,9 +135,13 @@ void Planner::Pipeline::look(const PlanRequest& request, const TrajectoryPoint& 
     sight_law_.observe(surroundings_, request.scan, request.T_odom_scan, request.tracks, start.pose, request.now);
     speed_bound_ = std::min(limits_.speed, sight_law_.speedFor(sight_law_.gapAt(start.pose.position())));
   }
+  if (!request.route.exists()) return;
   local_goal_ = localGoal(request.route, request.odometry.pose.position(), options_.look_ahead, request.map.frame, kWindowRim);
   watch_.update(request.odometry.pose.position(), request.now);
 }
+
+/// What was committed may be faster than what has come into sight since allows.
+bool Planner::Pipeline::heedsSight(const TrajectoryPoint& start) const { return start.twist.speed < speed_bound_ + kSightSlack; }
 
 PlanResult Planner::Pipeline::replan(const PlanRequest& request, const TrajectoryPoint& start, bool committed_valid) {
   planned_at_ = request.now;
@@ -142,7 +149,7 @@ PlanResult Planner::Pipeline::replan(const PlanRequest& request, const Trajector
   const std::optional<Proposal> proposal = bestProposal(request, start);
   if (proposal) return commit(*proposal);
   const std::string why = somethingMoved(request) ? "blocked by something that moved" : "blocked";
-  if (committed_valid) return keep(stands(start.twist) ? PlanCode::kBlocked : PlanCode::kDriving, why);
+  if (committed_valid && heedsSight(start)) return keep(stands(start.twist) ? PlanCode::kBlocked : PlanCode::kDriving, why);
   return brake(request, start, PlanCode::kBlocked, why);
 }
 

@@ -36,6 +36,7 @@ class Planner::Pipeline {
   bool mayKeep(const PlanRequest& request) const;
   bool endsAtGoal(const PlanRequest& request) const;
   void look(const PlanRequest& request, const TrajectoryPoint& start);
+  bool heedsSight(const TrajectoryPoint& start) const;
   PlanResult replan(const PlanRequest& request, const TrajectoryPoint& start, bool committed_valid);
   std::optional<Proposal> bestProposal(const PlanRequest& request, const TrajectoryPoint& start);
   std::optional<Proposal> attempt(const Attempt& how, const PlanRequest& request, const TrajectoryPoint& start) const;
