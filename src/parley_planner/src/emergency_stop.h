@@ -12,8 +12,8 @@ SampledTrajectory brakingAlong(const SampledTrajectory& path, const TrajectoryPo
                                double time_step);
 
 /// The best of braking on the committed path, on the present curvature and while straightening: one that touches nothing,
-/// else the one that is slowest where it does. What is committed was planned round the obstacles, but may be what has just
-/// been found to be shut.
+/// else the one that is slowest where it touches what stands, then what moves. What is committed was planned round the
+/// obstacles, but may be what has just been found to be shut.
 SampledTrajectory safestStop(const TrajectoryValidator& validator, const SampledTrajectory& committed,
                              const TrajectoryPoint& from, const MotionLimits& limits, double time_step);
 

@@ -20,6 +20,7 @@ constexpr double kSlowSpeed = 0.3;        // [m/s]
 constexpr double kWiderPush = 0.25;       // [m] more, where the usual path led nowhere
 constexpr double kBlockedReach = 1.5;     // [m] moving things nearer than this are what blocks
 constexpr double kRouteStays = 30.0;      // [s]
+constexpr double kSightSlack = 0.1;       // [m/s]
 constexpr double kLongestForecast = 0.5;  // [s] of the measured state
 
 SightLawOptions sightLaw(const PlannerOptions& options, const Footprint& footprint) {
@@ -96,7 +97,9 @@ PlanResult Planner::Pipeline::plan(const PlanRequest& request) {
   if (!route_.exists()) {
     if (const std::optional<PlanResult> result = makeWay(request, start, start.pose.position())) return *result;
     tell(ownRight(request), {start.pose.position()});
-    return valid ? keep(PlanCode::kNoRoute, "no route") : brake(request, start, PlanCode::kNoRoute, "no route");
+    look(request, start);
+    return valid && heedsSight(start) ? keep(PlanCode::kNoRoute, "no route")
+                                      : brake(request, start, PlanCode::kNoRoute, "no route");
   }
   if (valid && (mayKeep(request) || endsAtGoal(request))) return keep(code_, "");
   return replan(request, start, valid);
@@ -159,9 +162,13 @@ void Planner::Pipeline::look(const PlanRequest& request, const TrajectoryPoint& 
     sight_law_.observe(surroundings_, traffic_.scan(), request.T_odom_scan, moving, start.pose, request.now);
     speed_bound_ = std::min(limits_.speed, sight_law_.speedFor(sight_law_.gapAt(start.pose.position())));
   }
+  if (!route_.exists()) return;
   local_goal_ = localGoal(route_, request.odometry.pose.position(), options_.look_ahead, request.map.frame, kWindowRim);
   watch_.update(request.odometry.pose.position(), request.now);
 }
+
+/// What was committed may be faster than what has come into sight since allows.
+bool Planner::Pipeline::heedsSight(const TrajectoryPoint& start) const { return start.twist.speed < speed_bound_ + kSightSlack; }
 
 PlanResult Planner::Pipeline::replan(const PlanRequest& request, const TrajectoryPoint& start, bool committed_valid) {
   planned_at_ = request.now;
@@ -180,12 +187,12 @@ PlanResult Planner::Pipeline::decided(const PlanRequest& request, const Trajecto
                                       const std::optional<Proposal>& proposal, bool committed_valid) {
   if (proposal) return commit(*proposal);
   if (options_.conflict_resolution && !traffic_.peers().empty() && isBehindPeer(start)) {
-    return committed_valid ? keep(stands(start.twist) ? PlanCode::kWaiting : PlanCode::kDriving, "waiting for a teammate")
+    return committed_valid && heedsSight(start) ? keep(stands(start.twist) ? PlanCode::kWaiting : PlanCode::kDriving, "waiting for a teammate")
                            : brake(request, start, PlanCode::kWaiting, "waiting for a teammate");
   }
   if (options_.conflict_resolution && stands(start.twist) && somethingMoved(request)) standOff(request, start);
   const std::string why = somethingMoved(request) ? "blocked by something that moved" : "blocked";
-  if (committed_valid) return keep(stands(start.twist) ? PlanCode::kBlocked : PlanCode::kDriving, why);
+  if (committed_valid && heedsSight(start)) return keep(stands(start.twist) ? PlanCode::kBlocked : PlanCode::kDriving, why);
   return brake(request, start, PlanCode::kBlocked, why);
 }
 

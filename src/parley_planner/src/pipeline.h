@@ -41,6 +41,7 @@ class Planner::Pipeline {
   bool mayKeep(const PlanRequest& request) const;
   bool endsAtGoal(const PlanRequest& request) const;
   void look(const PlanRequest& request, const TrajectoryPoint& start);
+  bool heedsSight(const TrajectoryPoint& start) const;
   PlanResult replan(const PlanRequest& request, const TrajectoryPoint& start, bool committed_valid);
   PlanResult decided(const PlanRequest& request, const TrajectoryPoint& start, const std::optional<Proposal>& proposal,
                      bool committed_valid);

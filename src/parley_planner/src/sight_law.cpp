@@ -256,8 +256,8 @@ SightLaw::Mask SightLaw::driven(const Mask& from, const Mask& prices, const Mask
   for (std::size_t i = 0; i < from.size(); ++i) {
     if (from[i] && prices[i]) sources[i] = 0;
   }
-  const int most = cost(options_.intruder_speed * std::clamp(elapsed, 0.0, 1.0));
-  const Costs reached = spread(sources, prices, std::min(kFar, most));
+  const int most = cost(std::clamp(options_.intruder_speed * elapsed, 0.0, kFarGap));
+  const Costs reached = spread(sources, prices, most);
   Mask result(from.size());
   for (std::size_t i = 0; i < from.size(); ++i) result[i] = prices[i] && unseen[i] && reached[i] <= kFar;
   return result;

@@ -113,17 +113,43 @@ Verdict TrajectoryValidator::checkMotion(const std::vector<TrajectoryPoint>& poi
 
 Verdict TrajectoryValidator::checkPlaces(const std::vector<TrajectoryPoint>& points, const Margins& margins,
                                          double trust_from) const {
-  // Where the robot already is cannot be helped; it must not get worse.
+  Verdict first;
+  for (const Verdict& verdict : {checkObstacles(points, margins), checkUnseen(points), checkTracks(points),
+                                 checkPeers(points, trust_from)}) {
+    if (!verdict.good() && (first.good() || verdict.time < first.time)) first = verdict;
+  }
+  return first;
+}
+
+// Where the robot already is cannot be helped; it must not get worse.
+Verdict TrajectoryValidator::checkObstacles(const std::vector<TrajectoryPoint>& points, const Margins& margins) const {
   const double had_room = obstacleDistance(points.front().pose) - kSlack;
-  const double had_gap = trackDistance(points.front()) - kSlack;
+  for (const TrajectoryPoint& point : points) {
+    if (obstacleDistance(point.pose) < std::min(had_room, margins.at(point.twist.speed))) return {Flaw::kObstacle, point.time};
+  }
+  return {};
+}
+
+Verdict TrajectoryValidator::checkPeers(const std::vector<TrajectoryPoint>& points, double trust_from) const {
   const double had_peer = peerDistance(points.front(), kNever) - kSlack;
+  for (const TrajectoryPoint& point : points) {
+    if (peerDistance(point, trust_from) < std::min(had_peer, kPeerGap)) return {Flaw::kPeer, point.time};
+  }
+  return {};
+}
+
+Verdict TrajectoryValidator::checkUnseen(const std::vector<TrajectoryPoint>& points) const {
   const int had_unseen = std::max(kUnseenSpecks, unseenCells(points.front().pose));
   for (const TrajectoryPoint& point : points) {
-    const double room = obstacleDistance(point.pose);
-    if (room < std::min(had_room, margins.at(point.twist.speed))) return {Flaw::kObstacle, point.time};
-    if (peerDistance(point, trust_from) < std::min(had_peer, kPeerGap)) return {Flaw::kPeer, point.time};
     if (unseenCells(point.pose) > had_unseen) return {Flaw::kUnseen, point.time};
-    if (point.time - points.front().time > prediction_time_) continue;
+  }
+  return {};
+}
+
+Verdict TrajectoryValidator::checkTracks(const std::vector<TrajectoryPoint>& points) const {
+  const double had_gap = trackDistance(points.front()) - kSlack;
+  for (const TrajectoryPoint& point : points) {
+    if (point.time - points.front().time > prediction_time_) break;
     if (trackDistance(point) < std::min(had_gap, track_margin_)) return {Flaw::kTrack, point.time};
   }
   return {};

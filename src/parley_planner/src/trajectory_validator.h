@@ -56,12 +56,18 @@ class TrajectoryValidator {
   Verdict check(const SampledTrajectory& trajectory, const TrajectoryPoint& begin, const Margins& margins) const;
   /// What is left of a committed one from `time` [s] on: the surroundings only.
   Verdict checkRest(const SampledTrajectory& trajectory, double time, const Margins& margins) const;
+  /// What stands alone, and what moves alone.
+  Verdict checkObstacles(const std::vector<TrajectoryPoint>& points, const Margins& margins) const;
+  Verdict checkTracks(const std::vector<TrajectoryPoint>& points) const;
+  /// Teammates alone. Those that this robot goes before count until `trust_from` [s]: by then they have made room.
+  Verdict checkPeers(const std::vector<TrajectoryPoint>& points, double trust_from = 1e18) const;
 
  private:
   Verdict checkMotion(const std::vector<TrajectoryPoint>& points, const TrajectoryPoint& begin) const;
   /// Peers that this robot goes before count until `trust_from` [s]: by then they have made room.
   Verdict checkPlaces(const std::vector<TrajectoryPoint>& points, const Margins& margins, double trust_from) const;
   double peerDistance(const TrajectoryPoint& point, double trust_from) const;
+  Verdict checkUnseen(const std::vector<TrajectoryPoint>& points) const;
   void addPoint(const Eigen::Vector2d& p_odom);
   double obstacleDistance(const Pose2& pose) const;
   double trackDistance(const TrajectoryPoint& point) const;

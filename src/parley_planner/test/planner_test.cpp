@@ -123,6 +123,33 @@ TEST_F(PlannerTest, WithoutARouteWhatIsCommittedStands) {
   EXPECT_TRUE(result.keep_committed);
 }
 
+TEST_F(PlannerTest, WhatIsCommittedIsKeptNoFasterThanSightAllows) {
+  committed_ = plan(0.0).trajectory;
+  const TrajectoryPoint there = committed_.at(1.2);
+  odometry_.pose = there.pose;
+  odometry_.twist = there.twist;
+  Route behind_a_wall = route_;
+  behind_a_wall.points = {there.pose.position(), {there.pose.x, 9.0}};
+  setCells(&map_, 0.0, 5.3, 10.0, 5.4, CellState::kOccupied);
+  TrackedObject first_sight;  // far enough aside that it does not shut the way
+  first_sight.stamp = 1.2;
+  first_sight.position = there.pose * Eigen::Vector2d(1.5, -1.5);
+  first_sight.radius = 0.3;
+  first_sight.observations = 1;
+  for (const Route& route : {Route{}, behind_a_wall}) {
+    route_ = route;
+    tracks_.clear();
+    EXPECT_TRUE(plan(1.2).keep_committed);
+    tracks_ = {first_sight};
+    const PlanResult result = plan(1.4);
+    EXPECT_LT(result.speed_bound, there.twist.speed - 0.3);
+    ASSERT_FALSE(result.keep_committed);
+    EXPECT_EQ(motionFlaw(result.trajectory.points(), robotLimits()), "");
+    EXPECT_LT(result.trajectory.duration(), 1.1);
+    EXPECT_NEAR(result.trajectory.points().back().pose.y, 5.0, 0.05);
+  }
+}
+
 TEST_F(PlannerTest, TurnsOnTheSpotFirst) {
   odometry_.pose.yaw = 2.8;
   const PlanResult result = plan(0.0);

@@ -49,6 +49,31 @@ TEST(BrakingAlong, StaysOnThePath) {
   }
 }
 
+TEST(BrakingAlong, DoesNotDriftWhenItIsBegunAnew) {
+  const MotionLimits limits = robotLimits();
+  // From straight on into a bend, as tight as the drive can take it up at this speed.
+  std::vector<TrajectoryPoint> points{{2.0, {5.0, 5.0, 0.4}, {1.8, 0.0}}};
+  while (points.size() < 60) {
+    TrajectoryPoint p = points.back();
+    p.time += kStep;
+    p.twist.turn_rate = std::min(1.4, p.twist.turn_rate + 0.5 * limits.turn_acceleration * kStep);
+    p.pose = integrateTwist(points.back().pose, 1.8, 0.5 * (points.back().twist.turn_rate + p.twist.turn_rate), kStep);
+    points.push_back(p);
+  }
+  const SampledTrajectory path(points);
+  SampledTrajectory stop = brakingAlong(path, path.at(2.2), limits, kStep);
+  for (int plan = 1; plan < 8; ++plan) stop = brakingAlong(stop, stop.at(2.2 + 0.1 * plan), limits, kStep);
+  const Pose2 end = stop.points().back().pose;
+  double nearest = 1e9, yaw = 0.0;
+  for (double time = 2.0; time < path.endTime(); time += 0.005) {
+    const double distance = (path.at(time).pose.position() - end.position()).norm();
+    if (distance < nearest) yaw = path.at(time).pose.yaw;
+    nearest = std::min(nearest, distance);
+  }
+  EXPECT_LT(nearest, 0.02);
+  EXPECT_NEAR(angleBetween(yaw, end.yaw), 0.0, 0.03);
+}
+
 TEST(SafestStop, TakesTheWayThatIsFree) {
   const TrajectoryPoint start{2.0, {4.0, 5.0, 0.0}, {1.6, 0.0}};
   const std::vector<TrackedObject> tracks;
@@ -88,6 +113,33 @@ TEST(SafestStop, IsSlowestWhereItTouches) {
   validator.observe({map, scan, {}, tracks});
   const SampledTrajectory stop = safestStop(validator, {}, start, robotLimits(), kStep);
   EXPECT_NEAR(stop.duration(), 2.0 / robotLimits().acceleration, 2.0 * kStep);
+}
+
+TEST(SafestStop, DoesNotGiveUpTheWayPastAWallForOnePastWhatMoves) {
+  const TrajectoryPoint start{2.0, {4.0, 5.0, 0.0}, {1.8, 0.0}};
+  TrajectoryPoint turning = start;
+  turning.twist.turn_rate = 1.2;
+  const SampledTrajectory left = bend(turning, 2.0, 1.8);
+  World world(10, 10, false);
+  world.fill(4.0, 4.0, 6.0, 4.7, true);
+  world.fill(5.15, 4.0, 5.3, 5.0, true);  // whoever does not turn runs into this
+  const LocalMap map = seenMap(world);
+  const ObstacleScan scan;
+  TrackedObject robot;  // beside the left turn, going away; its disc reaches into both ways
+  robot.stamp = 2.0;
+  robot.position = {4.6, 5.95};
+  robot.velocity = {0.0, 0.2};
+  robot.radius = 0.6;
+  robot.moving = robot.has_moved = true;
+  const std::vector<TrackedObject> tracks{robot};
+  TrajectoryValidator validator(robotFootprint(), robotLimits(), 1.5, 0.1);
+  validator.observe({map, scan, {}, tracks});
+  const Margins contact{0.01, 0.0, 0.0};
+  const SampledTrajectory along = brakingAlong(left, turning, robotLimits(), kStep);
+  ASSERT_TRUE(validator.checkObstacles(along.points(), contact).good());
+  ASSERT_EQ(validator.checkTracks(along.points()).flaw, Flaw::kTrack);
+  const SampledTrajectory stop = safestStop(validator, left, turning, robotLimits(), kStep);
+  for (const TrajectoryPoint& p : stop.points()) EXPECT_FALSE(world.touches(robotFootprint(), p.pose)) << p.time;
 }
 
 TEST(FreshPieces, AThingByItselfIsOne) {

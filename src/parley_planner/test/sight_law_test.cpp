@@ -76,6 +76,18 @@ TEST_F(SightLawTest, RemembersWhatItHasSeenForAWhile) {
   EXPECT_EQ(law_.gapAt({5.0, 2.0}), 0.0);
 }
 
+TEST_F(SightLawTest, OthersDriveOnWhileNobodyLooks) {
+  World open(10, 10, true);
+  open.fill(1, 1, 9, 9, false);
+  look(open, {5.0, 5.0, 0.0}, 0.0);
+  World closed = open;
+  closed.fill(0, 4.0, 10, 4.2, true);
+  look(closed, {5.0, 3.0, 0.0}, 0.1);
+  ASSERT_FALSE(law_.possibleAt({5.0, 7.0}));
+  look(closed, {5.0, 3.0, 0.0}, 4.0);
+  EXPECT_TRUE(law_.possibleAt({5.0, 7.0}));
+}
+
 TEST_F(SightLawTest, ApproachingTracksCount) {
   World world(10, 10, true);
   world.fill(0, 3, 10, 7, false);
