@@ -66,7 +66,8 @@ Agenda Pace::agenda(double now, double beacon_rate) const {
   agenda.beacon = isDue(beacon_time_, beacon_period, now, false);
   agenda.conflicts = conflict_sends_ > 0 && isDue(conflict_time_, kConflictInterval, now, false);
   const bool may = has_trajectory && isDue(trajectory_time_, 1.0 / options_.trajectory_rate_max, now, false);
-  agenda.trajectory = may && (isDue(trajectory_time_, 1.0 / options_.trajectory_rate_min, now, false) || trajectoryChanged(now) || intentChanged());
+  agenda.trajectory = may && (isDue(trajectory_time_, 1.0 / options_.trajectory_rate_min, now, false) || trajectoryChanged(now) ||
+                              intentChanged());
   if (agenda.empty()) return agenda;
   agenda.trajectory = agenda.trajectory || (may && isDue(trajectory_time_, 1.0 / options_.trajectory_rate_min, now, true));
   agenda.beacon = agenda.beacon || isDue(beacon_time_, beacon_period, now, true);

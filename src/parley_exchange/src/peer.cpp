@@ -41,7 +41,8 @@ void updatePeer(Peer& peer, RobotId sender, const PacketContent& content, std::u
   take(peer.beacon, content.beacon, own_name && plausible.holds(*content.beacon), {{}, counter, content.stamp, now}, counters);
   take(peer.trajectory, content.trajectory, content.trajectory && plausible.holds(*content.trajectory),
        {{}, counter, content.stamp, now}, counters);
-  take(peer.intent, content.intent, content.intent && plausible.holds(*content.intent), {{}, counter, content.stamp, now}, counters);
+  take(peer.intent, content.intent, content.intent && plausible.holds(*content.intent), {{}, counter, content.stamp, now},
+       counters);
   const bool conflicts_hold = content.conflicts && std::all_of(content.conflicts->begin(), content.conflicts->end(),
                                                                [&](const Conflict& c) { return plausible.holds(c); });
   take(peer.conflicts, content.conflicts, conflicts_hold, {{}, counter, content.stamp, now}, counters);

@@ -10,13 +10,13 @@ namespace parley {
 
 namespace {
 
-constexpr int kMostPasses = 8;         // simulations until the margins must be kept
-constexpr double kBackOff = 0.03;      // [m] stop this much before what is too near
-constexpr double kTrackBackOff = 0.2;  // [m] as above for what moves: it comes nearer while the robot brakes
-constexpr double kPeerBackOff = 0.3;   // [m] as above for teammates: either may have to turn
-constexpr double kSlack = 0.005;       // [m] by which a start that is too near may come nearer: lookups are no better
-constexpr double kLastMargin = 0.01;   // [m]
-constexpr double kSpeedSlack = 0.02;   // [m/s]
+constexpr int kMostPasses = 8;           // simulations until the margins must be kept
+constexpr double kBackOff = 0.03;        // [m] stop this much before what is too near
+constexpr double kTrackBackOff = 0.2;    // [m] as above for what moves: it comes nearer while the robot brakes
+constexpr double kPeerBackOff = 0.3;     // [m] as above for teammates: either may have to turn
+constexpr double kSlack = 0.005;         // [m] by which a start that is too near may come nearer: lookups are no better
+constexpr double kLastMargin = 0.01;     // [m]
+constexpr double kSpeedSlack = 0.02;     // [m/s]
 constexpr double kMostUncertain = 0.15;  // [m] of a peer's place
 
 }  // namespace

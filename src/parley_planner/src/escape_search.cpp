@@ -100,8 +100,8 @@ class EscapeSearch {
   double roomAt(int node) const {
     const DistanceField& field = task_.surroundings.obstacles();
     const int x = node % frame_.width * kStride, y = node / frame_.width * kStride;
-    return static_cast<double>(
-        std::max(std::max(field.atCell(x, y), field.atCell(x + 1, y)), std::max(field.atCell(x, y + 1), field.atCell(x + 1, y + 1))));
+    return static_cast<double>(std::max(std::max(field.atCell(x, y), field.atCell(x + 1, y)),
+                                        std::max(field.atCell(x, y + 1), field.atCell(x + 1, y + 1))));
   }
 
   /// Cost of a metre, negative where it is closed.

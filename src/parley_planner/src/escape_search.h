@@ -19,7 +19,7 @@ struct EscapeTask {
   RightOfWay right;                     // with which this robot goes
   std::optional<Eigen::Vector2d> last;  // [m] the escape point it is on the way to
   std::vector<Eigen::Vector2d> failed;  // [m] those that did not work lately
-  double room = 0.0;                   // [m] least distance of the escape point from obstacles
+  double room = 0.0;                    // [m] least distance of the escape point from obstacles
 };
 
 /// The way to what can be reached furthest from a place [m], through those who will make room.

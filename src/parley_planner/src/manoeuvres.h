@@ -24,9 +24,9 @@ struct ManoeuvreTask {
   const TrajectoryPoint& start;  // state it begins in
   const DriveScene& scene;
   Margins margins;
-  double push_distance;       // [m] that obstacles push the path away
-  const SightLaw* sight_law;      // null: does not matter
-  const DistanceField& shape;     // what pushes the path away
+  double push_distance;        // [m] that obstacles push the path away
+  const SightLaw* sight_law;   // null: does not matter
+  const DistanceField& shape;  // what pushes the path away
 };
 
 /// The motions by which a robot gets onto a path and along it: drive on, turn on the spot first, back out of where it cannot

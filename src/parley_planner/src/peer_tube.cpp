@@ -74,7 +74,8 @@ PeerTube tubeOf(const PeerMotion& peer, double now, double margin) {
   const TrajectoryPoint& end = peer.trajectory.points().back();
   tube.standing = std::abs(present.twist.speed) < kStandingSpeed && (end.pose.position() - present.pose.position()).norm() < 0.1;
   tube.way = wayFrom(peer.intent.way, present.pose.position(), kLongestWay);
-  const bool told = peer.intent.way.size() > 1 && nearestOn(resampled(peer.intent.way, kTubeStep), tube.way[0]).distance < kOffWay;
+  const bool told =
+      peer.intent.way.size() > 1 && nearestOn(resampled(peer.intent.way, kTubeStep), tube.way[0]).distance < kOffWay;
   if (told) return tube;
   Path driven;
   if (now < peer.trajectory.endTime()) {

@@ -35,7 +35,8 @@ struct Meeting {
   bool head_on = false;      // they run against each other for longer than a robot
 };
 
-/// Where a way (evenly spaced by kTubeStep) comes nearer to the tube's middle than `distance` [m], first time; nullopt if nowhere.
+/// Where a way (evenly spaced by kTubeStep) comes nearer to the tube's middle than `distance` [m], first time; nullopt if
+/// nowhere.
 std::optional<Meeting> meetingOf(const Path& way, const PeerTube& tube, double distance);
 
 /// Distance of a point from the tube's middle, and how far along it that is.

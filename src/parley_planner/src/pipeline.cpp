@@ -76,13 +76,13 @@ PlanResult Planner::Pipeline::plan(const PlanRequest& request) {
   if ((request.goal - goal_).norm() > 0.05) arrived_ = reached_ = false;
   goal_ = request.goal;
   traffic_.observe(request);
-  validator_.observe(
-      {request.map, traffic_.scan(), request.T_odom_scan, traffic_.tracks(), traffic_.peers(), intent_.right});
+  validator_.observe({request.map, traffic_.scan(), request.T_odom_scan, traffic_.tracks(), traffic_.peers(), intent_.right});
   // What is driven already may come nearer than what is newly committed: noise alone must not stop the robot.
   const Margins least{kLeastMargin, 0.3 * options_.margin_per_speed, options_.creep_speed};
   const bool valid = validator_.checkRest(request.committed, start.time, least).good();
 
-  const bool busy = valid && !request.committed.empty() && request.start_time < std::min(busy_until_, request.committed.endTime());
+  const bool busy =
+      valid && !request.committed.empty() && request.start_time < std::min(busy_until_, request.committed.endTime());
   if (busy) return keep(code_, "");
   if (way_out_ && !traffic_.isShutIn(request.now, start.pose.position())) way_out_.reset();
   if (way_out_) return leave(request, start, valid);
@@ -187,8 +187,9 @@ PlanResult Planner::Pipeline::decided(const PlanRequest& request, const Trajecto
                                       const std::optional<Proposal>& proposal, bool committed_valid) {
   if (proposal) return commit(*proposal);
   if (options_.conflict_resolution && !traffic_.peers().empty() && isBehindPeer(start)) {
-    return committed_valid && heedsSight(start) ? keep(stands(start.twist) ? PlanCode::kWaiting : PlanCode::kDriving, "waiting for a teammate")
-                           : brake(request, start, PlanCode::kWaiting, "waiting for a teammate");
+    return committed_valid && heedsSight(start)
+               ? keep(stands(start.twist) ? PlanCode::kWaiting : PlanCode::kDriving, "waiting for a teammate")
+               : brake(request, start, PlanCode::kWaiting, "waiting for a teammate");
   }
   if (options_.conflict_resolution && stands(start.twist) && somethingMoved(request)) standOff(request, start);
   const std::string why = somethingMoved(request) ? "blocked by something that moved" : "blocked";
@@ -208,22 +209,21 @@ std::optional<Proposal> Planner::Pipeline::bestProposal(const PlanRequest& reque
     if (other && (!best || other->advance > best->advance + 0.5 * kUsefulAdvance)) best = std::move(other);
   };
   const Attempt usual = usualAttempt();
-  consider(attempt(usual, request, start));
+  consider(attempt(usual, start));
   if (isUseful(best) || std::abs(start.twist.speed) > kSlowSpeed) return best;
   // Wider round corners; where any heading fits, none is in the way.
   const double round = footprint_.circumscribedRadius() + usual.margins.creeping;
   const Attempt wide{round, options_.comfort_distance + kWiderPush, options_.push_distance + kWiderPush, usual.margins, false};
-  consider(attempt(wide, request, start));
+  consider(attempt(wide, start));
   if (isUseful(best) || !stands(start.twist) || request.now - squeezed_at_ < kSqueezePeriod) return best;
   squeezed_at_ = request.now;
   Attempt squeeze = usual;
   squeeze.squeeze = true;
-  consider(attempt(squeeze, request, start));
+  consider(attempt(squeeze, start));
   return best;
 }
 
-std::optional<Proposal> Planner::Pipeline::attempt(const Attempt& how, const PlanRequest& request,
-                                                   const TrajectoryPoint& start) const {
+std::optional<Proposal> Planner::Pipeline::attempt(const Attempt& how, const TrajectoryPoint& start) const {
   PathSearchOptions search;
   search.least_clearance = how.least_clearance;
   search.comfort_distance = how.comfort_distance;
@@ -239,8 +239,7 @@ std::optional<Proposal> Planner::Pipeline::attempt(const Attempt& how, const Pla
 }
 
 /// A motion along a path, if the validator lets it pass.
-std::optional<Proposal> Planner::Pipeline::along(const Path& path, const Attempt& how,
-                                                 const TrajectoryPoint& start) const {
+std::optional<Proposal> Planner::Pipeline::along(const Path& path, const Attempt& how, const TrajectoryPoint& start) const {
   const Surroundings& shape = how.shape != nullptr ? *how.shape : surroundings_;
   const DriveScene scene{how.squeeze ? shape : surroundings_,
                          traffic_.tracks(),
@@ -248,8 +247,8 @@ std::optional<Proposal> Planner::Pipeline::along(const Path& path, const Attempt
                          options_.track_margin,
                          traffic_.careful(),
                          options_.peer_margin};
-  const ManoeuvreTask task{path, start, scene, how.margins, how.push_distance, options_.sight_law ? &sight_law_ : nullptr,
-                           shape.obstacles()};
+  const ManoeuvreTask task{
+      path, start, scene, how.margins, how.push_distance, options_.sight_law ? &sight_law_ : nullptr, shape.obstacles()};
   std::optional<Proposal> proposal = how.squeeze ? manoeuvres_.squeeze(task) : manoeuvres_.propose(task);
   if (!proposal) return std::nullopt;
   const Margins judged{std::max(kLeastMargin + 0.005, 0.4 * how.margins.creeping), 0.5 * how.margins.per_speed,

@@ -49,7 +49,7 @@ class Planner::Pipeline {
   RightOfWay ownRight(const PlanRequest& request) const;
   bool isBehindPeer(const TrajectoryPoint& start) const;
   bool isNearPeers(const PlanRequest& request) const;
-  Path desiredWay(const PlanRequest& request, const TrajectoryPoint& start) const;
+  Path desiredWay(const TrajectoryPoint& start) const;
   PlanResult rest(const PlanRequest& request, const TrajectoryPoint& start);
   PlanResult negotiate(const PlanRequest& request, const TrajectoryPoint& start, bool committed_valid);
   std::optional<Proposal> passBy(const TrafficDecision& decision, const Path& desired, const PlanRequest& request,
@@ -65,7 +65,7 @@ class Planner::Pipeline {
   void tell(const RightOfWay& right, const Path& way);
   std::optional<Proposal> bestProposal(const PlanRequest& request, const TrajectoryPoint& start);
   std::optional<Proposal> along(const Path& path, const Attempt& how, const TrajectoryPoint& start) const;
-  std::optional<Proposal> attempt(const Attempt& how, const PlanRequest& request, const TrajectoryPoint& start) const;
+  std::optional<Proposal> attempt(const Attempt& how, const TrajectoryPoint& start) const;
   PlanResult commit(const Proposal& proposal, PlanCode code = PlanCode::kDriving);
   PlanResult brake(const PlanRequest& request, const TrajectoryPoint& start, PlanCode code, const std::string& why);
   PlanResult keep(PlanCode code, const std::string& why) const;
@@ -82,19 +82,19 @@ class Planner::Pipeline {
   Surroundings surroundings_;
   Traffic traffic_;
   Intent intent_;
-  std::optional<Eigen::Vector2d> escape_;    // [m] the escape point on the way to which it is
+  std::optional<Eigen::Vector2d> escape_;                           // [m] the escape point on the way to which it is
   std::vector<std::pair<double, Eigen::Vector2d>> failed_escapes_;  // [s] until when not to be tried, [m]
-  std::optional<PeerTube> stranger_;  // that it makes room for, unheard
-  double stranger_until_ = -1e9;      // [s]
-  double blocked_since_ = -1e9;       // [s] by something that moves and is not heard
-  double blocked_last_ = -1e9;        // [s]
+  std::optional<PeerTube> stranger_;                                // that it makes room for, unheard
+  double stranger_until_ = -1e9;                                    // [s]
+  double blocked_since_ = -1e9;                                     // [s] by something that moves and is not heard
+  double blocked_last_ = -1e9;                                      // [s]
   std::uint32_t stand_offs_ = 0;
   Eigen::Vector2d shut_in_at_ = Eigen::Vector2d::Zero();
-  std::optional<Eigen::Vector2d> way_out_;   // [m] of where it is shut in
-  double passing_off_until_ = -1e9;          // [s] passing by did not work
+  std::optional<Eigen::Vector2d> way_out_;  // [m] of where it is shut in
+  double passing_off_until_ = -1e9;         // [s] passing by did not work
   int escapes_ = 0;
-  bool reached_ = false;       // it has stood at this goal
-  double rested_since_ = 0.0;  // [s]
+  bool reached_ = false;                // it has stood at this goal
+  double rested_since_ = 0.0;           // [s]
   PlanCode code_ = PlanCode::kDriving;  // of what was committed last
   Eigen::Vector2d goal_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d local_goal_ = Eigen::Vector2d::Zero();

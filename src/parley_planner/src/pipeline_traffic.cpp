@@ -11,29 +11,29 @@ namespace parley {
 
 namespace {
 
-constexpr double kNearPeer = 10.0;        // [m] a peer further off does not matter
-constexpr double kRest = 0.7;             // [s] at its goal before a robot makes room for others
-constexpr double kOut = 0.7;              // [m] from the place where it wanted to go, a robot is out again
-constexpr double kBlockedBreak = 1.0;    // [s]
-constexpr double kLeastPatience = 2.0;   // [s] a robot waits for a stranger to go away,
-constexpr double kMorePatience = 5.0;    // [s] or up to so much longer
-constexpr double kStrangerReach = 5.0;   // [m] behind this robot
-constexpr double kWaitingGap = 0.8;       // [m] to a peer that this robot waits for
-constexpr double kTellReach = 8.0;        // [m] of the way that is told
-constexpr double kPassingGap = 0.12;      // [m] between two that pass each other
-constexpr double kSeparation = 0.2;       // [m] that two who keep right would like between them
-constexpr double kDetour = 1.5;           // [-] times and
-constexpr double kDetourMore = 1.0;       // [m] more is not too long a way round peers
-constexpr double kPassingOff = 6.0;       // [s] having got stuck, passing by is not tried for so long
-constexpr double kFailedFor = 10.0;       // [s] an escape point that could not be reached is not tried for so long
-constexpr double kFailedShortly = 3.0;    // [s] and one to which no motion was found for so long
-constexpr int kEscapeTries = 3;           // [-] escape points looked at in one plan
-constexpr double kSqueezePeriod = 0.5;    // [s]
-constexpr double kStandOff = 0.3;         // [m] that a waiting robot stays before where it could go to
-constexpr double kWorthCreeping = 0.3;    // [m] a waiting robot does not move up by less
-constexpr double kAnotherEscape = 1.0;    // [m] an escape point further from the last is another one
-constexpr double kSlowSpeed = 0.3;        // [m/s]
-constexpr double kCloser = 0.02;          // [m]
+constexpr double kNearPeer = 10.0;      // [m] a peer further off does not matter
+constexpr double kRest = 0.7;           // [s] at its goal before a robot makes room for others
+constexpr double kOut = 0.7;            // [m] from the place where it wanted to go, a robot is out again
+constexpr double kBlockedBreak = 1.0;   // [s]
+constexpr double kLeastPatience = 2.0;  // [s] a robot waits for a stranger to go away,
+constexpr double kMorePatience = 5.0;   // [s] or up to so much longer
+constexpr double kStrangerReach = 5.0;  // [m] behind this robot
+constexpr double kWaitingGap = 0.8;     // [m] to a peer that this robot waits for
+constexpr double kTellReach = 8.0;      // [m] of the way that is told
+constexpr double kPassingGap = 0.12;    // [m] between two that pass each other
+constexpr double kSeparation = 0.2;     // [m] that two who keep right would like between them
+constexpr double kDetour = 1.5;         // [-] times and
+constexpr double kDetourMore = 1.0;     // [m] more is not too long a way round peers
+constexpr double kPassingOff = 6.0;     // [s] having got stuck, passing by is not tried for so long
+constexpr double kFailedFor = 10.0;     // [s] an escape point that could not be reached is not tried for so long
+constexpr double kFailedShortly = 3.0;  // [s] and one to which no motion was found for so long
+constexpr int kEscapeTries = 3;         // [-] escape points looked at in one plan
+constexpr double kSqueezePeriod = 0.5;  // [s]
+constexpr double kStandOff = 0.3;       // [m] that a waiting robot stays before where it could go to
+constexpr double kWorthCreeping = 0.3;  // [m] a waiting robot does not move up by less
+constexpr double kAnotherEscape = 1.0;  // [m] an escape point further from the last is another one
+constexpr double kSlowSpeed = 0.3;      // [m/s]
+constexpr double kCloser = 0.02;        // [m]
 
 bool isIn(const Path& middle, double half_width, const Eigen::Vector2d& p) {
   for (const Eigen::Vector2d& q : middle) {
@@ -84,7 +84,7 @@ void Planner::Pipeline::tell(const RightOfWay& right, const Path& way) {
 }
 
 /// Where the robot would go if it were alone: to the local goal, and along the route from there.
-Path Planner::Pipeline::desiredWay(const PlanRequest& request, const TrajectoryPoint& start) const {
+Path Planner::Pipeline::desiredWay(const TrajectoryPoint& start) const {
   PathSearchOptions search;
   search.least_clearance = footprint_.inscribedRadius() + 0.01;
   search.comfort_distance = options_.comfort_distance;
@@ -116,8 +116,7 @@ PlanResult Planner::Pipeline::rest(const PlanRequest& request, const TrajectoryP
 std::optional<PlanResult> Planner::Pipeline::makeWay(const PlanRequest& request, const TrajectoryPoint& start,
                                                      const Eigen::Vector2d& back_to) {
   if (!options_.conflict_resolution || !isNearPeers(request)) return std::nullopt;
-  const TrafficDecision decision =
-      traffic_.decide({start.pose.position()}, ownRight(request), start.twist.speed, request.now);
+  const TrafficDecision decision = traffic_.decide({start.pose.position()}, ownRight(request), start.twist.speed, request.now);
   if (!decision.in_the_way) return std::nullopt;
   look(request, start);
   local_goal_ = back_to;
@@ -125,7 +124,7 @@ std::optional<PlanResult> Planner::Pipeline::makeWay(const PlanRequest& request,
 }
 
 PlanResult Planner::Pipeline::negotiate(const PlanRequest& request, const TrajectoryPoint& start, bool committed_valid) {
-  const Path desired = desiredWay(request, start);
+  const Path desired = desiredWay(start);
   desired_ = desired;
   const TrafficDecision decision = traffic_.decide(desired, ownRight(request), start.twist.speed, request.now);
   if (watch_.level() > 0 && request.now > passing_off_until_) passing_off_until_ = request.now + kPassingOff;
@@ -178,13 +177,14 @@ std::optional<Proposal> Planner::Pipeline::passBy(const TrafficDecision& decisio
   how.shape = &shape;
   how.whole = true;
   how.most = kDetour * std::min(options_.look_ahead, pathLength(desired)) + kDetourMore;
-  std::optional<Proposal> proposal = attempt(how, request, start);
+  std::optional<Proposal> proposal = attempt(how, start);
   const bool useful = proposal && (proposal->advance > kUsefulAdvance || proposal->end == DriveEnd::kPathEnd);
   return useful ? proposal : std::nullopt;
 }
 
 /// Another goes first: up to where its way begins, or off it.
-PlanResult Planner::Pipeline::makeRoom(const TrafficDecision& decision, const PlanRequest& request, const TrajectoryPoint& start) {
+PlanResult Planner::Pipeline::makeRoom(const TrafficDecision& decision, const PlanRequest& request,
+                                       const TrajectoryPoint& start) {
   if (decision.in_the_way) {
     if (const std::optional<Proposal> proposal = escape(decision, request, start)) {
       tell(decision.right, wayFrom(proposal->path, start.pose.position(), kTellReach));
@@ -195,14 +195,13 @@ PlanResult Planner::Pipeline::makeRoom(const TrafficDecision& decision, const Pl
   }
   escape_.reset();
   const Surroundings shape = surroundings_.with([&](const Eigen::Vector2d& p) {
-    return std::any_of(decision.first.begin(), decision.first.end(), [&](const PeerTube& tube) {
-      return isIn(tube.way, 0.5 * tube.footprint.width + kPassingGap, p);
-    });
+    return std::any_of(decision.first.begin(), decision.first.end(),
+                       [&](const PeerTube& tube) { return isIn(tube.way, 0.5 * tube.footprint.width + kPassingGap, p); });
   });
   Attempt how = usualAttempt();
   how.shape = &shape;
   how.trim = kStandOff;
-  std::optional<Proposal> proposal = attempt(how, request, start);
+  std::optional<Proposal> proposal = attempt(how, start);
   const bool moves = std::abs(start.twist.speed) > kSlowSpeed;
   if (proposal && (moves || proposal->advance > kWorthCreeping)) {
     tell(decision.right, wayFrom(proposal->path, start.pose.position(), kTellReach));
@@ -249,7 +248,7 @@ void Planner::Pipeline::findWayOut(const TrafficDecision& decision, const PlanRe
   if (!way_out_ && !traffic_.cannotMakeRoom(request.now, start.pose.position())) return;
   if (!reached_) return;
   if (!way_out_) shut_in_at_ = start.pose.position();
-  const EscapeTask task{surroundings_,    footprint_,          start.pose,   local_goal_, decision.first,
+  const EscapeTask task{surroundings_,    footprint_,        start.pose,   local_goal_, decision.first,
                         traffic_.tubes(), ownRight(request), std::nullopt, {},          2.0 * footprint_.circumscribedRadius()};
   std::optional<Path> path = escapePath(task);
   if (!path) path = pathAwayFrom(task, shut_in_at_);
@@ -271,7 +270,8 @@ PlanResult Planner::Pipeline::leave(const PlanRequest& request, const Trajectory
 }
 
 /// By the usual manoeuvres, and from standing by a search among positions and headings.
-std::optional<Proposal> Planner::Pipeline::escapeAlong(const Path& path, const PlanRequest& request, const TrajectoryPoint& start) {
+std::optional<Proposal> Planner::Pipeline::escapeAlong(const Path& path, const PlanRequest& request,
+                                                       const TrajectoryPoint& start) {
   Attempt how = usualAttempt();
   const Path straight = straightened(surroundings_, path, how.comfort_distance);
   std::optional<Proposal> proposal = along(straight, how, start);
@@ -294,9 +294,10 @@ void Planner::Pipeline::standOff(const PlanRequest& request, const TrajectoryPoi
   const double patience = kLeastPatience + kMorePatience * shareOf(request.id, stand_offs_);
   if (request.now - blocked_since_ < patience) return;
   const Eigen::Vector2d here = start.pose.position();
-  const auto nearest = std::min_element(
-      traffic_.tracks().begin(), traffic_.tracks().end(), [&](const TrackedObject& a, const TrackedObject& b) {
-        return std::make_pair(!a.has_moved, (a.position - here).norm()) < std::make_pair(!b.has_moved, (b.position - here).norm());
+  const auto nearest =
+      std::min_element(traffic_.tracks().begin(), traffic_.tracks().end(), [&](const TrackedObject& a, const TrackedObject& b) {
+        return std::make_pair(!a.has_moved, (a.position - here).norm()) <
+               std::make_pair(!b.has_moved, (b.position - here).norm());
       });
   if (nearest == traffic_.tracks().end() || !nearest->has_moved) return;
   ++stand_offs_;
@@ -304,8 +305,14 @@ void Planner::Pipeline::standOff(const PlanRequest& request, const TrajectoryPoi
   stranger_until_ = request.now + kLeastPatience + kMorePatience * shareOf(request.id, stand_offs_ + 1000);
   const Eigen::Vector2d towards = (here - nearest->position).normalized();
   const Path through = {nearest->position, here, here + kStrangerReach * towards};
-  stranger_ = PeerTube{0, {3.0, 0, 0}, footprint_, {nearest->position.x(), nearest->position.y(), std::atan2(towards.y(), towards.x())},
-                       0.0, resampled(through, kTubeStep), options_.peer_margin, true};
+  stranger_ = PeerTube{0,
+                       {3.0, 0, 0},
+                       footprint_,
+                       {nearest->position.x(), nearest->position.y(), std::atan2(towards.y(), towards.x())},
+                       0.0,
+                       resampled(through, kTubeStep),
+                       options_.peer_margin,
+                       true};
 }
 
 /// Standing, or braking to a stand.

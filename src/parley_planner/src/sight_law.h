@@ -32,7 +32,8 @@ class SightLaw {
   SightLaw(const SightLawOptions& options, const MotionLimits& limits);
 
   void reset();
-  /// Whether all robots near are known to be where they say: then what is hidden may stand or walk, but no robot comes from there.
+  /// Whether all robots near are known to be where they say: then what is hidden may stand or walk, but no robot comes from
+  /// there.
   void setTeamKnown(bool known) { team_known_ = known; }
   /// Takes in what the newest scan sees at `now` [s] from `pose`, and how far off on the way to each place the nearest
   /// possible intruder is.

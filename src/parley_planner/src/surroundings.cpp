@@ -55,7 +55,9 @@ Mask unseenMask(const LocalMap& map) {
 
 Surroundings::Surroundings(const LocalMap& map, const ObstacleScan& scan, const Pose2& T_odom_scan,
                            const std::vector<TrackedObject>& tracks)
-    : mask_(obstacleMask(map, scan, T_odom_scan, tracks)), obstacles_(map.frame, mask_), unseen_(map.frame, unseenMask(map), true) {}
+    : mask_(obstacleMask(map, scan, T_odom_scan, tracks)),
+      obstacles_(map.frame, mask_),
+      unseen_(map.frame, unseenMask(map), true) {}
 
 FootprintProbe::FootprintProbe(const Footprint& footprint) : inscribed_(footprint.inscribedRadius()) {
   const double half_long = 0.5 * std::max(footprint.length, footprint.width);

@@ -65,8 +65,8 @@ class Traffic {
   std::vector<PeerMotion> careful_;
   ObstacleScan scan_;
   std::vector<TrackedObject> tracks_;
-  RightOfWay lent_;            // of the robot that this one makes room for
-  double lent_until_ = -1e9;   // [s]
+  RightOfWay lent_;              // of the robot that this one makes room for
+  double lent_until_ = -1e9;     // [s]
   double no_room_since_ = -1e9;  // [s]
   double no_room_last_ = -1e9;   // [s]
   double shut_in_until_ = -1e9;  // [s]

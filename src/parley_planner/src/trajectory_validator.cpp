@@ -114,8 +114,8 @@ Verdict TrajectoryValidator::checkMotion(const std::vector<TrajectoryPoint>& poi
 Verdict TrajectoryValidator::checkPlaces(const std::vector<TrajectoryPoint>& points, const Margins& margins,
                                          double trust_from) const {
   Verdict first;
-  for (const Verdict& verdict : {checkObstacles(points, margins), checkUnseen(points), checkTracks(points),
-                                 checkPeers(points, trust_from)}) {
+  for (const Verdict& verdict :
+       {checkObstacles(points, margins), checkUnseen(points), checkTracks(points), checkPeers(points, trust_from)}) {
     if (!verdict.good() && (first.good() || verdict.time < first.time)) first = verdict;
   }
   return first;

@@ -11,22 +11,22 @@
 namespace parley {
 namespace {
 
-constexpr double kKeyframeSpacing = 1.5;  // [m] between keyframes that are told
-constexpr double kMapPeriod = 1.0;        // [s] between two tellings and two drawings of maps
-constexpr double kHardSigma = 0.15;       // [m] outlines known better than this are obstacles,
-constexpr double kHardStays = 0.2;        // [m] and stay so up to here
-constexpr double kSoftSigma = 0.6;        // [m] outlines less certain than this are of no use
-constexpr double kMovedBy = 0.05;         // [m] of outlines some metres off: they are drawn anew
-constexpr double kMovedYaw = 0.01;        // [rad]
-constexpr double kStillSeen = 5.0;        // [s] what own sensing has seen since stays when somebody else sees through it
-constexpr double kFreshTrajectory = 3.0;  // [s] a body is where it said that it would be, not longer ago than this,
-constexpr double kFreshBeacon = 0.5;      // [s] else where its last beacon, younger than this, says
-constexpr std::size_t kMostCorners = 15;  // [-] of a way that is told
-constexpr double kCornerTolerance = 0.08; // [m]
-constexpr double kLostTeammate = 6.0;    // [s] a robot whose place is unknown may still be near when it was last heard
-constexpr double kRadioWorked = 30.0;    // [s] since a teammate was heard well
-constexpr double kGoodLink = 0.6;        // [-] share of its packets
-constexpr double kBodyMargin = 0.05;      // [m] beyond the pose's deviation
+constexpr double kKeyframeSpacing = 1.5;   // [m] between keyframes that are told
+constexpr double kMapPeriod = 1.0;         // [s] between two tellings and two drawings of maps
+constexpr double kHardSigma = 0.15;        // [m] outlines known better than this are obstacles,
+constexpr double kHardStays = 0.2;         // [m] and stay so up to here
+constexpr double kSoftSigma = 0.6;         // [m] outlines less certain than this are of no use
+constexpr double kMovedBy = 0.05;          // [m] of outlines some metres off: they are drawn anew
+constexpr double kMovedYaw = 0.01;         // [rad]
+constexpr double kStillSeen = 5.0;         // [s] what own sensing has seen since stays when somebody else sees through it
+constexpr double kFreshTrajectory = 3.0;   // [s] a body is where it said that it would be, not longer ago than this,
+constexpr double kFreshBeacon = 0.5;       // [s] else where its last beacon, younger than this, says
+constexpr std::size_t kMostCorners = 15;   // [-] of a way that is told
+constexpr double kCornerTolerance = 0.08;  // [m]
+constexpr double kLostTeammate = 6.0;      // [s] a robot whose place is unknown may still be near when it was last heard
+constexpr double kRadioWorked = 30.0;      // [s] since a teammate was heard well
+constexpr double kGoodLink = 0.6;          // [-] share of its packets
+constexpr double kBodyMargin = 0.05;       // [m] beyond the pose's deviation
 
 /// What relative localization calls a robot.
 std::string nameOf(RobotId id) {
@@ -279,8 +279,8 @@ std::vector<KnownTeammate> TeamLink::bodies(double now) const {
     const bool drives_as_said = said && !said->trajectory.empty() && now - said->received < kFreshTrajectory;
     if (age > kFreshBeacon && !drives_as_said) continue;
     const Twist2& twist = peer.odometry.twist;
-    const Pose2 pose = drives_as_said ? said->trajectory.at(now).pose
-                                      : integrateTwist(peer.odometry.pose, twist.speed, twist.turn_rate, age);
+    const Pose2 pose =
+        drives_as_said ? said->trajectory.at(now).pose : integrateTwist(peer.odometry.pose, twist.speed, twist.turn_rate, age);
     const PoseEstimate& T = found->second.estimate.T_odom_peerodom;
     bodies.push_back({T.pose * pose, peer.footprint, kBodyMargin + deviation(pointCovariance(T, pose.position()))});
   }

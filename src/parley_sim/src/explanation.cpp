@@ -72,8 +72,8 @@ void writeCommitted(std::ostream& out, const CommittedPlan& plan) {
 }
 
 void writeRight(std::ostream& out, const RightOfWay& right) {
-  out << " goes with right " << right.priority << " of " << std::hex << std::setw(8) << std::setfill('0') << right.holder << std::dec
-      << std::setfill(' ') << " at depth " << right.depth;
+  out << " goes with right " << right.priority << " of " << std::hex << std::setw(8) << std::setfill('0') << right.holder
+      << std::dec << std::setfill(' ') << " at depth " << right.depth;
 }
 
 void writeIntent(std::ostream& out, const Intent& intent) {

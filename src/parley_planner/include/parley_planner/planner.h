@@ -19,12 +19,12 @@
 namespace parley {
 
 enum class PlanCode {
-  kDriving,  // on the way
-  kArrived,  // standing within the tolerance of the goal
-  kNoRoute,  // the topological map has none: what is committed is driven to its end
-  kNoPath,   // there is a route but no way onto it past what is seen
-  kBlocked,  // something stands or moves in the way and there is no room to go round
-  kWaiting,  // standing until another has passed
+  kDriving,   // on the way
+  kArrived,   // standing within the tolerance of the goal
+  kNoRoute,   // the topological map has none: what is committed is driven to its end
+  kNoPath,    // there is a route but no way onto it past what is seen
+  kBlocked,   // something stands or moves in the way and there is no room to go round
+  kWaiting,   // standing until another has passed
   kYielding,  // another goes first: keeping off its way
   kEscaping   // another goes first: on the way to where it does not need the room
 };

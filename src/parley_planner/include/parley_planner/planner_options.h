@@ -64,7 +64,8 @@ struct PlannerOptions {
     v.number("largest_deviation", largest_deviation, "m", 0.05, 2.0, "further off the trajectory, plans start from the odometry");
     v.number("prediction_time", prediction_time, "s", 0.0, 5.0, "how long tracked things are taken to keep their velocity");
     v.number("track_margin", track_margin, "m", 0.0, 1.0, "distance kept from the predicted place of tracked things");
-    v.number("peer_margin", peer_margin, "m", 0.0, 1.0, "distance kept from where teammates said they will be, their pose's error apart");
+    v.number("peer_margin", peer_margin, "m", 0.0, 1.0,
+             "distance kept from where teammates said they will be, their pose's error apart");
     v.flag("conflict_resolution", conflict_resolution, "agree with teammates on who goes first, and make room");
     v.flag("sight_law", sight_law, "drive so that a hidden robot under the same law and this one can both stop");
     v.number("sight_reaction_time", sight_reaction_time, "s", 0.0, 2.0, "from first sight to braking, either robot");
