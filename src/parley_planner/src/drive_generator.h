@@ -26,7 +26,7 @@ struct DriveScene {
   const std::vector<TrackedObject>& tracks;
   double prediction_time;  // [s]
   double track_margin;     // [m]
-  const std::vector<PeerMotion>& peers;
+  std::vector<PeerMotion> peers;
   double peer_margin;  // [m] their pose's error apart
 };
 

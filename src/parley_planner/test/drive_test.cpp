@@ -105,7 +105,7 @@ class GeneratorTest : public testing::Test {
                           const std::vector<TrackedObject>& tracks = {}) {
     const Surroundings surroundings(map, {}, {}, tracks);
     const ReferencePath path(resampled(way, 0.1));
-    return generator_.along(path, start, false, {surroundings, tracks, 1.5, 0.1}, {0.05, 0.04, 0.2}, {});
+    return generator_.along(path, start, false, {surroundings, tracks, 1.5, 0.1, {}, 0.08}, {0.05, 0.04, 0.2}, {});
   }
   DriveGenerator generator_{robotFootprint(), robotLimits(), kStep};
 };
@@ -167,8 +167,7 @@ TEST_F(GeneratorTest, TurnsOnlyWhereItsCornersPass) {
   world.fill(5.25, 5.25, 5.35, 5.35, true);  // in the way of the left front corner
   const Surroundings surroundings(seenMap(world), {}, {}, {});
   const std::vector<TrackedObject> tracks;
-  const std::vector<PeerMotion> peers;
-  const DriveScene scene{surroundings, tracks, 1.5, 0.1, peers, 0.08};
+  const DriveScene scene{surroundings, tracks, 1.5, 0.1, {}, 0.08};
   const TrajectoryPoint start{0.0, {5.0, 5.0, 0.0}, {}};
   EXPECT_TRUE(generator_.turn(start, 1.6, scene, {0.02, 0.04, 0.2}).empty());
   EXPECT_FALSE(generator_.turn(start, -0.8, scene, {0.02, 0.04, 0.2}).empty());

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "traffic.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "scenes.h"
+
+namespace parley {
+namespace {
+
+class TrafficTest : public testing::Test {
+ protected:
+  TrafficTest() {
+    scan_.ranges.assign(720, std::numeric_limits<float>::infinity());
+    scan_.transient.assign(720, false);
+    scan_.range_max = 4.0;
+  }
+
+  static PeerMotion peer(std::uint32_t id, const Pose2& pose, const Eigen::Vector2d& to, double priority = 1.0) {
+    PeerMotion motion;
+    motion.id = id;
+    motion.footprint = robotFootprint();
+    motion.trajectory = SampledTrajectory::standing(pose, 0.0);
+    motion.intent = {{priority, id, 0}, {pose.position(), to}};
+    return motion;
+  }
+
+  void observe(Traffic* traffic, std::vector<PeerMotion> peers, double now = 0.0) {
+    PlanRequest request{now, now, {now, {}, {}, 0, 0}, map_, scan_, {}, tracks_, route_, {9, 5}, 0.3, committed_};
+    request.peers = std::move(peers);
+    traffic->observe(request);
+  }
+
+  static Path way(double x1, double y1, double x2, double y2) { return resampled({{x1, y1}, {x2, y2}}, kTubeStep); }
+
+  PlannerOptions options_;
+  LocalMap map_ = seenMap(World(10, 10, false));
+  ObstacleScan scan_;
+  std::vector<TrackedObject> tracks_;
+  Route route_;
+  SampledTrajectory committed_;
+  Traffic traffic_{options_, robotFootprint(), robotLimits()};
+};
+
+TEST(RightOfWay, OrdersAnyTwo) {
+  EXPECT_TRUE(goesBefore({2.0, 1, 0}, {1.0, 9, 0}));  // shut in
+  EXPECT_TRUE(goesBefore({1.0, 9, 0}, {1.0, 8, 0}));
+  EXPECT_TRUE(goesBefore({1.0, 9, 0}, {1.0, 9, 1}));  // who pushes goes before whom it pushes
+  EXPECT_TRUE(goesBefore({1.0, 9, 3}, {1.0, 8, 0}));  // and lends its right
+  std::mt19937 random(5);
+  std::uniform_int_distribution<int> few(0, 2);
+  const auto any = [&] { return RightOfWay{1.0 * few(random), static_cast<std::uint32_t>(few(random)), few(random)}; };
+  for (int i = 0; i < 1000; ++i) {
+    const RightOfWay a = any(), b = any(), c = any();
+    EXPECT_FALSE(goesBefore(a, b) && goesBefore(b, a));
+    const bool same = a.priority == b.priority && a.holder == b.holder && a.depth == b.depth;
+    EXPECT_EQ(same, !goesBefore(a, b) && !goesBefore(b, a));
+    EXPECT_TRUE(goesBefore(a, c) || !goesBefore(a, b) || !goesBefore(b, c));
+  }
+}
+
+TEST_F(TrafficTest, OfTwoWhoseWaysMeetExactlyOneMakesRoom) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(1.0, 9.0);
+  int met = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Eigen::Vector2d a1(place(random), place(random)), a2(place(random), place(random));
+    const Eigen::Vector2d b1(place(random), place(random)), b2(place(random), place(random));
+    if ((a1 - b1).norm() < 1.0 || (a1 - a2).norm() < 1.0 || (b1 - b2).norm() < 1.0) continue;
+    Traffic a(options_, robotFootprint(), robotLimits()), b(options_, robotFootprint(), robotLimits());
+    observe(&a, {peer(2, {b1.x(), b1.y(), 0.0}, b2)});
+    observe(&b, {peer(1, {a1.x(), a1.y(), 0.0}, a2)});
+    const TrafficDecision of_a = a.decide(way(a1.x(), a1.y(), a2.x(), a2.y()), {1.0, 1, 0}, 0.0, 0.0);
+    const TrafficDecision of_b = b.decide(way(b1.x(), b1.y(), b2.x(), b2.y()), {1.0, 2, 0}, 0.0, 0.0);
+    EXPECT_TRUE(of_b.first.empty()) << "the second goes first";
+    met += static_cast<int>(of_a.first.size());
+  }
+  EXPECT_GT(met, 50);
+}
+
+TEST_F(TrafficTest, WhoFollowsOrPassesEarlyDoesNotWait) {
+  observe(&traffic_, {peer(9, {5.0, 5.0, 0.0}, {9.0, 5.0})});
+  EXPECT_TRUE(traffic_.decide(way(2.0, 5.0, 9.0, 5.0), {1.0, 1, 0}, 1.0, 0.0).first.empty());
+  observe(&traffic_, {peer(9, {1.0, 8.0, 0.0}, {9.0, 8.0})});
+  EXPECT_TRUE(traffic_.decide(way(7.5, 7.0, 7.5, 9.5), {1.0, 1, 0}, 1.0, 0.0).first.empty());
+  EXPECT_EQ(traffic_.decide(way(3.0, 4.0, 3.0, 9.5), {1.0, 1, 0}, 1.0, 0.0).first.size(), 1U);
+  // Who has arrived before goes in front of nobody.
+  observe(&traffic_, {peer(9, {2.0, 5.0, 0.0}, {9.0, 5.0})});
+  EXPECT_TRUE(traffic_.decide(way(4.0, 5.0, 8.0, 5.0), {1.0, 1, 0}, 1.0, 0.0).first.empty());
+  EXPECT_EQ(traffic_.decide(way(4.0, 5.0, 8.0, 5.0), {0.0, 1, 0}, 1.0, 0.0).first.size(), 1U);
+}
+
+TEST_F(TrafficTest, WhoHasToLeaveLendsTheRightOfWhoPushes) {
+  observe(&traffic_, {peer(9, {2.0, 5.0, 0.0}, {9.0, 5.0}), peer(5, {6.0, 5.0, 0.0}, {6.0, 5.0})});
+  const TrafficDecision decision = traffic_.decide({{4.0, 5.0}}, {1.0, 1, 0}, 0.0, 0.0);
+  EXPECT_TRUE(decision.in_the_way);
+  EXPECT_EQ(decision.right.holder, 9U);
+  EXPECT_EQ(decision.right.depth, 1);
+  // For a while after it was needed, no longer.
+  observe(&traffic_, {}, 0.3);
+  EXPECT_EQ(traffic_.decide({{4.0, 5.0}}, {1.0, 1, 0}, 0.0, 0.3).right.holder, 9U);
+  EXPECT_EQ(traffic_.decide({{4.0, 5.0}}, {1.0, 1, 0}, 0.0, 1.0).right.holder, 1U);
+}
+
+TEST_F(TrafficTest, WithNowhereToGoARobotGoesFirstAfterAWhileUntilItIsOut) {
+  const Eigen::Vector2d here(3.0, 3.0);
+  EXPECT_FALSE(traffic_.cannotMakeRoom(0.0, here));
+  EXPECT_FALSE(traffic_.cannotMakeRoom(0.4, here));
+  EXPECT_FALSE(traffic_.isShutIn(0.5, here));
+  EXPECT_FALSE(traffic_.cannotMakeRoom(0.8, here));
+  EXPECT_TRUE(traffic_.cannotMakeRoom(1.1, here));
+  EXPECT_TRUE(traffic_.isShutIn(5.0, here));
+  EXPECT_FALSE(traffic_.isShutIn(5.0, {30.0, 3.0}));
+  EXPECT_FALSE(traffic_.isShutIn(60.0, here));
+  traffic_.isOutAgain();
+  EXPECT_FALSE(traffic_.isShutIn(5.0, here));
+}
+
+TEST_F(TrafficTest, WhatThePeerCoversIsNoObstacleUnlessItIsElsewhere) {
+  scan_.ranges[360] = 1.6F;  // ahead: the near end of a peer 2 m off
+  TrackedObject track;
+  track.position = {1.7, 0.0};
+  track.radius = 0.2;
+  track.observations = 10;
+  track.moving = track.has_moved = true;
+  tracks_ = {track};
+  observe(&traffic_, {peer(9, {2.0, 0.0, 0.0}, {5.0, 0.0})});
+  EXPECT_TRUE(std::isnan(traffic_.scan().ranges[360]));
+  EXPECT_TRUE(traffic_.tracks().empty());
+  ASSERT_EQ(traffic_.peers().size(), 1U);
+  // The lidar follows something there, but not where the peer says that it is.
+  tracks_[0].position = {2.0, 0.7};
+  observe(&traffic_, {peer(9, {2.0, 0.0, 0.0}, {5.0, 0.0})});
+  EXPECT_TRUE(traffic_.peers().empty());
+  EXPECT_EQ(traffic_.tracks().size(), 1U);
+  // Nor is one believed that has been silent for long.
+  tracks_.clear();
+  observe(&traffic_, {peer(9, {2.0, 0.0, 0.0}, {5.0, 0.0})}, 10.0);
+  EXPECT_TRUE(traffic_.peers().empty());
+}
+
+TEST_F(TrafficTest, WhoComesTowardsCountsAsMovingThing) {
+  observe(&traffic_, {peer(9, {6.0, 5.0, kPi}, {2.0, 5.0}), peer(8, {6.0, 8.0, kPi}, {2.0, 8.0})});
+  const auto oncoming = traffic_.oncoming(way(1.0, 5.0, 8.0, 5.0), 0.0);
+  ASSERT_EQ(oncoming.size(), 1U);
+  EXPECT_NEAR(oncoming[0].position.x(), 6.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace parley
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
