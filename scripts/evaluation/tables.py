@@ -33,7 +33,8 @@ def summary(results):
             "|---|---|---|---|---|---|---|---|---|---|---|")
     by_world = defaultdict(list)
     for result in results:
-        label = "" if result["label"].startswith("robot") else f", {result['label']}"
+        plain = not result["label"] or result["label"].startswith("robot")
+        label = "" if plain else f", {result['label']}"
         by_world[result["world"] + label].append(result)
     rows = [row(name, group) for name, group in by_world.items()]
     return "\n".join([head, *rows, row("all", results)])
