@@ -42,6 +42,40 @@ TEST(TeamLink, robotsThatMeetKnowWhereTheOtherIs) {
   EXPECT_EQ(a.stack.team()->teammates().at(robotIdOf("bob")).name, "bob");
 }
 
+/// Two robots pass each other; how many seconds of ten each of them knows where the other is, in the mean over both. [s]
+double secondsKnown(int max_reports, double loss, unsigned seed) {
+  Meeting meeting(hall(), seed);
+  meeting.loss = loss;
+  RobotOptions ann = test::optionsOf("ann", Variant::kFull), bob = test::optionsOf("bob", Variant::kFull);
+  ann.relative_localization.max_reports = bob.relative_localization.max_reports = max_reports;
+  Robot& a = meeting.add(ann, {1.5, 3.0, 0.2}, 0.0);
+  Robot& b = meeting.add(bob, {14.5, 5.0, 3.0}, 0.0);
+  a.go({14.5, 3.2});
+  b.go({1.5, 5.2});
+  double known = 0.0;
+  while (meeting.time() < 10.0) {
+    meeting.run(0.1);
+    for (const auto& error : {Meeting::errorOf(a, b, "bob"), Meeting::errorOf(b, a, "ann")}) {
+      if (!error) continue;
+      EXPECT_LT(*error, 0.3) << "seed " << seed;
+      known += 0.05;
+    }
+  }
+  return known;
+}
+
+TEST(TeamLink, whereMuchIsLostTellingAgainHelps) {
+  for (const double loss : {0.8, 0.9}) {
+    double once = 0.0, again = 0.0;
+    for (unsigned seed = 1; seed <= 5; ++seed) {
+      once += 0.2 * secondsKnown(1, loss, seed);
+      again += 0.2 * secondsKnown(4, loss, seed);
+    }
+    std::printf("%.0f %% lost: known for %.2f s, with sightings told again %.2f s\n", 100.0 * loss, once, again);
+    EXPECT_GT(again, (loss > 0.85 ? 1.5 : 1.1) * once);
+  }
+}
+
 TEST(TeamLink, mapsAreSharedOnlyWhereThatIsWanted) {
   for (const Variant variant : {Variant::kFull, Variant::kNoSharing}) {
     Meeting meeting(hall());
