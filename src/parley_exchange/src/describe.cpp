@@ -168,7 +168,7 @@ std::string describe(const PacketContent& content) {
   if (content.beacon) lines += text(*content.beacon) + "\n";
   for (const Echo& echo : content.echoes) lines += text(echo) + "\n";
   for (const DigestEntry& entry : content.digest) lines += text(entry) + "\n";
-  if (content.observations) lines += text(*content.observations) + "\n";
+  for (const ObservationMessage& scan : content.observations) lines += text(scan) + "\n";
   for (const RecordGroup& group : content.records) lines += text(group) + "\n";
   return lines;
 }

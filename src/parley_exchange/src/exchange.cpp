@@ -104,14 +104,16 @@ bool Exchange::setConflicts(const std::vector<Conflict>& conflicts) {
   return true;
 }
 
-bool Exchange::setObservations(const ObservationMessage& observations, double stamp) {
+bool Exchange::setObservations(const std::vector<ObservationMessage>& scans, double now) {
   const Plausibility plausible{core_->options.max_speed, core_->options.max_turn_rate};
-  if (!std::isfinite(stamp) || !plausible.holds(observations)) {
+  const bool usable = std::isfinite(now) && std::all_of(scans.begin(), scans.end(),
+                                                        [&](const ObservationMessage& scan) { return plausible.holds(scan); });
+  if (!usable) {
     ++core_->counters.inputs_refused;
     return false;
   }
-  core_->observations = observations;
-  core_->observation_stamp = stamp;
+  core_->scans = scans;
+  core_->scans_at = now;
   return true;
 }
 

@@ -50,9 +50,8 @@ class Exchange::Core {
   DriveState trajectory_state = DriveState::kStopped;
   Pace pace;
   std::optional<IntentMessage> intent;  // goes with each trajectory
-  std::optional<ObservationMessage> observations;
-  double observation_stamp = -1e9;       // [s]
-  double observation_sent_stamp = -1e9;  // [s] of the last that went out
+  std::vector<ObservationMessage> scans;  // the newest first
+  double scans_at = -1e9;                 // [s] when they had their ages
 
   ExchangeCounters counters;
 
@@ -69,8 +68,10 @@ class Exchange::Core {
   void warnOfNamesakes(double now);
   int neighbourCount(double now) const;
   double beaconRate(double now) const;
+  std::size_t scansToTell(double now) const;
   PacketContent compose(const Agenda& agenda, double budget, Agenda& done, double now);
   void addBeacon(PacketContent& content, const Agenda& agenda, double budget, Agenda& done, double now);
+  void addObservations(PacketContent& content, double budget, double now);
   void addRecords(PacketContent& content, double budget, double now);
   Beacon beacon(double now) const;
   std::vector<Echo> echoes(double now);
@@ -90,8 +91,9 @@ class Exchange::Core {
   std::uint32_t counter_ = 0;                                 // [-] of packets sent
   std::deque<std::pair<double, std::uint32_t>> lately_sent_;  // time [s] and counter
   std::vector<ExchangeEvent> events_;
-  double warned_ = -1e9;  // [s] of a namesake
-  double tidied_ = -1e9;  // [s] when what is old was last looked for
+  double scan_sent_ = -1e9;  // [s] stamp of the newest scan that went out
+  double warned_ = -1e9;     // [s] of a namesake
+  double tidied_ = -1e9;     // [s] when what is old was last looked for
 };
 
 }  // namespace parley

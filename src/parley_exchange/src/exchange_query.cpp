@@ -51,9 +51,9 @@ std::optional<PeerConflicts> Exchange::conflictsOf(RobotId peer) const {
   return PeerConflicts{known->conflicts->received, known->conflicts->message};
 }
 
-std::optional<PeerObservations> Exchange::observationsOf(RobotId peer, double now) const {
-  const Peer* known = peerWith(core_->peers, peer, &Peer::observations);
-  return known != nullptr ? std::make_optional(parley::observationsOf(*known, now)) : std::nullopt;
+std::vector<PeerObservations> Exchange::observationsOf(RobotId peer, double now) const {
+  const auto known = core_->peers.find(peer);
+  return known != core_->peers.end() ? parley::observationsOf(known->second, now) : std::vector<PeerObservations>{};
 }
 
 std::vector<RobotId> Exchange::origins() const {

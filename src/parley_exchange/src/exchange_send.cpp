@@ -10,6 +10,9 @@ namespace {
 
 constexpr double kFirstContact = 3.0;        // [s] beacons come fast until clocks are known, at most so long
 constexpr double kObservationLife = 0.5;     // [s]
+constexpr double kSameScan = 0.001;          // [s]
+constexpr double kMostScans = 4.0;           // [-] in a packet
+constexpr std::size_t kBlobsAtATime = 16;    // [-] in a packet, of all its scans together
 constexpr double kEchoWindow = 5.0;          // [s] packets sent from here that an echo may tell of
 constexpr std::size_t kEchoesAtATime = 4;    // [-]
 constexpr double kTimeToTell = 1.5;          // [s] a neighbour has before it is taken to have nothing
@@ -60,18 +63,9 @@ PacketContent Exchange::Core::compose(const Agenda& agenda, double budget, Agend
     if (!done.conflicts) content.conflicts.reset();
   }
   if (agenda.beacon && odometry) addBeacon(content, agenda, budget, done, now);
-  const bool has_observations =
-      observations && now - observation_stamp < kObservationLife && observation_stamp > observation_sent_stamp;
-  if (has_observations && !done.empty() && neighbourCount(now) > 0) {
-    content.observations = observations;
-    content.observations->age = std::max(0.0, now - observation_stamp);
-    if (fits(content, budget)) {
-      observation_sent_stamp = observation_stamp;
-    } else {
-      content.observations.reset();
-    }
-  }
-  if (!done.empty()) addRecords(content, budget, now);
+  if (done.empty()) return content;
+  addObservations(content, budget, now);
+  addRecords(content, budget, now);
   return content;
 }
 
@@ -89,6 +83,33 @@ void Exchange::Core::addBeacon(PacketContent& content, const Agenda& agenda, dou
   content.digest = digest(now);
   if (!fits(content, budget)) content.digest.clear();
   done.full_beacon = true;
+}
+
+void Exchange::Core::addObservations(PacketContent& content, double budget, double now) {
+  const double stamp = scans.empty() ? -1e9 : scans_at - scans.front().age;
+  if (now - stamp >= kObservationLife || neighbourCount(now) == 0) return;
+  const std::size_t count = scansToTell(now);
+  if (count == 1 && stamp < scan_sent_ + kSameScan) return;
+  std::size_t blobs = 0;
+  for (const ObservationMessage& scan : scans) {
+    blobs += scan.blobs.size();
+    if (content.observations.size() == count || (!content.observations.empty() && blobs > kBlobsAtATime)) break;
+    content.observations.push_back(scan);
+    content.observations.back().age += std::max(0.0, now - scans_at);
+  }
+  while (!content.observations.empty() && !fits(content, budget)) content.observations.pop_back();
+  if (!content.observations.empty()) scan_sent_ = stamp;
+}
+
+/// So many that each neighbour whose pose is not known hears of each scan about once, however much is lost.
+std::size_t Exchange::Core::scansToTell(double now) const {
+  double need = 1.0;
+  for (const auto& [id, peer] : peers) {
+    if (peer.confirmed || !peer.isNeighbour(now, options.neighbour_timeout)) continue;
+    const double heard = now < peer.proven_until ? peer.heard_there : receiver.find(id)->window.receivedShare();
+    need = std::max(need, 1.0 / std::max(heard, 0.01));
+  }
+  return static_cast<std::size_t>(std::clamp(std::round(need), 1.0, kMostScans));
 }
 
 void Exchange::Core::addRecords(PacketContent& content, double budget, double now) {
@@ -178,7 +199,7 @@ int Exchange::Core::neighbourCount(double now) const {
 }
 
 double Exchange::Core::beaconRate(double now) const {
-  const bool sees = observations && now - observation_stamp < kObservationLife && !observations->blobs.empty();
+  const bool sees = !scans.empty() && now - scans_at + scans.front().age < kObservationLife && !scans.front().blobs.empty();
   double need = 0.0;
   int count = 0;
   for (const auto& entry : peers) {

@@ -110,7 +110,7 @@ Bytes encodePacket(const PacketContent& content) {
   if (content.beacon) append(packet, SectionType::kBeacon, *content.beacon);
   if (!content.echoes.empty()) append(packet, SectionType::kEchoes, content.echoes);
   if (!content.digest.empty()) append(packet, SectionType::kDigest, content.digest);
-  if (content.observations) append(packet, SectionType::kObservations, *content.observations);
+  if (!content.observations.empty()) append(packet, SectionType::kObservations, content.observations);
   for (const RecordGroup& group : content.records) append(packet, SectionType::kRecords, group);
   return packet;
 }

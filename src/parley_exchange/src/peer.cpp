@@ -9,6 +9,9 @@
 namespace parley {
 namespace {
 
+constexpr std::int64_t kSameScan = 80;  // [ticks] scans are further apart
+constexpr std::size_t kHeldScans = 16;  // [-] of each peer
+
 /// Replaces what is older. False if the message cannot be true.
 template <class Message>
 void take(std::optional<Latest<Message>>& into, const std::optional<Message>& message, bool plausible,
@@ -21,6 +24,23 @@ void take(std::optional<Latest<Message>>& into, const std::optional<Message>& me
   if (into && into->counter > stamps.counter) return;
   into = stamps;
   into->message = *message;
+}
+
+/// Keeps what is not known yet. The same scan's stamp differs from packet to packet by the rounding of its age.
+void takeScans(Peer& peer, const PacketContent& content, double now, const Plausibility& plausible, ExchangeCounters& counters) {
+  for (auto scan = content.observations.rbegin(); scan != content.observations.rend(); ++scan) {
+    if (!plausible.holds(*scan)) {
+      ++counters.implausible;
+      continue;
+    }
+    const std::uint32_t stamp = content.stamp - ticksOf(scan->age);
+    const bool known = std::any_of(peer.scans.begin(), peer.scans.end(), [stamp](const HeardScan& other) {
+      return std::abs(static_cast<std::int64_t>(static_cast<std::int32_t>(stamp - other.stamp))) < kSameScan;
+    });
+    if (known) continue;
+    peer.scans.push_back({stamp, now, scan->pose, scan->blobs});
+    if (peer.scans.size() > kHeldScans) peer.scans.pop_front();
+  }
 }
 
 /// Distance driven from one pose to the next, negative backwards. [m]
@@ -46,8 +66,7 @@ void updatePeer(Peer& peer, RobotId sender, const PacketContent& content, std::u
   const bool conflicts_hold = content.conflicts && std::all_of(content.conflicts->begin(), content.conflicts->end(),
                                                                [&](const Conflict& c) { return plausible.holds(c); });
   take(peer.conflicts, content.conflicts, conflicts_hold, {{}, counter, content.stamp, now}, counters);
-  take(peer.observations, content.observations, content.observations && plausible.holds(*content.observations),
-       {{}, counter, content.stamp, now}, counters);
+  takeScans(peer, content, now, plausible, counters);
 }
 
 PeerState stateOf(RobotId id, const Peer& peer, const Sender* sender, double now, double neighbour_timeout) {
@@ -96,9 +115,12 @@ PeerTrajectory trajectoryOf(const Peer& peer, double now) {
   return {peer.trajectory->received, message.state, SampledTrajectory(std::move(points))};
 }
 
-PeerObservations observationsOf(const Peer& peer, double now) {
-  const Latest<ObservationMessage>& latest = *peer.observations;
-  return {peer.clock.ownTime(latest.stamp, now) - latest.message.age, latest.received, latest.message.pose, latest.message.blobs};
+std::vector<PeerObservations> observationsOf(const Peer& peer, double now) {
+  std::vector<PeerObservations> observations;
+  for (const HeardScan& scan : peer.scans) {
+    observations.push_back({peer.clock.ownTime(scan.stamp, now), scan.received, scan.pose, scan.blobs});
+  }
+  return observations;
 }
 
 }  // namespace parley

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <deque>
 #include <map>
 #include <optional>
 
@@ -20,6 +21,14 @@ struct Latest {
   double received = 0.0;      // [s]
 };
 
+/// A scan that was told of.
+struct HeardScan {
+  std::uint32_t stamp = 0;  // [ticks] of the peer's clock
+  double received = 0.0;    // [s]
+  Pose2 pose;               // T_odom_base
+  std::vector<Observation> blobs;
+};
+
 /// Another robot, as long as it is heard now and then.
 struct Peer {
   std::uint32_t boot = 0;
@@ -32,11 +41,11 @@ struct Peer {
   std::optional<Latest<TrajectoryMessage>> trajectory;
   std::optional<Latest<IntentMessage>> intent;
   std::optional<Latest<std::vector<Conflict>>> conflicts;
-  std::optional<Latest<ObservationMessage>> observations;
-  double heard_there = 0.0;    // [-]
-  double proven_until = -1e9;  // [s]
-  double echoed_at = -1e9;     // [s] when its packets were last told of
-  bool confirmed = false;      // its pose is known
+  std::deque<HeardScan> scans;  // the last, in the order in which they came
+  double heard_there = 0.0;     // [-]
+  double proven_until = -1e9;   // [s]
+  double echoed_at = -1e9;      // [s] when its packets were last told of
+  bool confirmed = false;       // its pose is known
   bool duplicate_told = false;
 
   bool isNeighbour(double now, double timeout) const { return now - last_heard <= timeout; }
@@ -62,6 +71,6 @@ void takeEchoes(Peer& peer, RobotId self, const std::vector<Echo>& echoes, doubl
 /// As it is shown to other stages.
 PeerState stateOf(RobotId id, const Peer& peer, const Sender* sender, double now, double neighbour_timeout);
 PeerTrajectory trajectoryOf(const Peer& peer, double now);
-PeerObservations observationsOf(const Peer& peer, double now);
+std::vector<PeerObservations> observationsOf(const Peer& peer, double now);
 
 }  // namespace parley

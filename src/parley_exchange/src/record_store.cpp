@@ -2,7 +2,6 @@
 #include "record_store.h"
 
 #include <algorithm>
-#include <set>
 
 namespace parley {
 namespace {
@@ -49,10 +48,15 @@ Log* RecordStore::admit(const LogName& name, std::uint32_t epoch) {
     if (known->second.epoch < epoch) startEpoch(name, epoch);
     return known->second.epoch == epoch ? &known->second : nullptr;
   }
-  std::set<RobotId> origins{name.origin};
-  for (const auto& entry : logs_) origins.insert(entry.first.origin);
-  origins.erase(self_);
-  if (origins.size() > static_cast<std::size_t>(limits_.max_origins)) return nullptr;
+  // Logs are in the order of their origins. Whoever floods a full store costs no memory each time.
+  std::size_t origins = name.origin == self_ ? 0 : 1;
+  RobotId last = name.origin;
+  for (const auto& entry : logs_) {
+    const RobotId origin = entry.first.origin;
+    if (origin != last && origin != name.origin && origin != self_) ++origins;
+    last = origin;
+  }
+  if (origins > static_cast<std::size_t>(limits_.max_origins)) return nullptr;
   Log& log = logs_[name];
   log.epoch = epoch;
   return &log;

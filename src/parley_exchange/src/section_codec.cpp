@@ -27,6 +27,9 @@ constexpr Quantity kLease{0.1, 7, false};             // [s]
 constexpr Quantity kRange{0.005, 12, false};          // [m]
 constexpr int kBearingBits = 12;                      // [-]
 constexpr Quantity kChord{0.02, 6, false};            // [m]
+constexpr Quantity kScanStep{0.005, 12, true};        // [m] from the newest scan to one before it
+constexpr double kFarthestScan = 10.2;                // [m] of these, that the wire has room for
+constexpr double kOldestScan = 1.277;                 // [s]
 
 void writeState(BitWriter& writer, DriveState state) { writer.bits(static_cast<std::uint64_t>(state), 4); }
 
@@ -34,6 +37,37 @@ DriveState readState(BitReader& reader) {
   const int state = static_cast<int>(reader.bits(4));
   if (state >= kStateCount) reader.fail();
   return state < kStateCount ? static_cast<DriveState>(state) : DriveState::kStopped;
+}
+
+void writeBlobs(BitWriter& writer, const std::vector<Observation>& blobs) {
+  const std::size_t count = std::min(blobs.size(), kMaxBlobs);
+  writer.bits(count, 4);
+  for (std::size_t i = 0; i < count; ++i) {
+    write(writer, blobs[i].range, kRange);
+    writeAngle(writer, blobs[i].bearing, kBearingBits);
+    write(writer, blobs[i].chord, kChord);
+  }
+}
+
+std::vector<Observation> readBlobs(BitReader& reader) {
+  const std::size_t count = reader.bits(4);
+  if (count > kMaxBlobs) reader.fail();
+  std::vector<Observation> blobs(std::min(count, kMaxBlobs));
+  for (Observation& blob : blobs) {
+    blob.range = read(reader, kRange);
+    blob.bearing = readAngle(reader, kBearingBits);
+    blob.chord = read(reader, kChord);
+  }
+  return blobs;
+}
+
+/// As it will be read. [m]
+double onGrid(double coordinate) { return static_cast<double>(codeOf(coordinate, kFinePosition)) * kFinePosition.step; }
+
+/// What would be cut is not told at all.
+bool fitsBehind(const ObservationMessage& newest, const ObservationMessage& scan) {
+  const Eigen::Vector2d step = scan.pose.position() - newest.pose.position();
+  return scan.age <= kOldestScan && step.cwiseAbs().maxCoeff() <= kFarthestScan;
 }
 
 /// A robot must not look smaller than it is.
@@ -221,31 +255,42 @@ std::optional<std::vector<Conflict>> decodeConflicts(BitReader reader) {
   return reader.ok() ? std::make_optional(conflicts) : std::nullopt;
 }
 
-void encode(BitWriter& writer, const ObservationMessage& observations) {
-  const std::size_t count = std::min(observations.blobs.size(), kMaxBlobs);
-  write(writer, observations.age, kAge);
-  writePose(writer, observations.pose, kFinePosition, kFineYawBits);
-  writer.bits(count, 4);
-  for (std::size_t i = 0; i < count; ++i) {
-    write(writer, observations.blobs[i].range, kRange);
-    writeAngle(writer, observations.blobs[i].bearing, kBearingBits);
-    write(writer, observations.blobs[i].chord, kChord);
+void encode(BitWriter& writer, const std::vector<ObservationMessage>& scans) {
+  assert(!scans.empty());
+  const ObservationMessage& newest = scans.front();
+  write(writer, newest.age, kAge);
+  writePose(writer, newest.pose, kFinePosition, kFineYawBits);
+  writeBlobs(writer, newest.blobs);
+  std::vector<const ObservationMessage*> earlier;
+  for (std::size_t i = 1; i < scans.size() && i < kMaxObservedScans; ++i) {
+    if (fitsBehind(newest, scans[i])) earlier.push_back(&scans[i]);
+  }
+  if (earlier.empty()) return;
+  writer.bits(earlier.size(), 3);
+  for (const ObservationMessage* scan : earlier) {
+    write(writer, scan->age, kAge);
+    write(writer, onGrid(scan->pose.x) - onGrid(newest.pose.x), kScanStep);
+    write(writer, onGrid(scan->pose.y) - onGrid(newest.pose.y), kScanStep);
+    writeAngle(writer, scan->pose.yaw, kFineYawBits);
+    writeBlobs(writer, scan->blobs);
   }
 }
 
-std::optional<ObservationMessage> decodeObservations(BitReader reader) {
-  ObservationMessage observations;
-  observations.age = read(reader, kAge);
-  observations.pose = readPose(reader, kFinePosition, kFineYawBits);
-  const std::size_t count = reader.bits(4);
-  if (count > kMaxBlobs) return std::nullopt;
-  observations.blobs.resize(count);
-  for (Observation& blob : observations.blobs) {
-    blob.range = read(reader, kRange);
-    blob.bearing = readAngle(reader, kBearingBits);
-    blob.chord = read(reader, kChord);
+std::optional<std::vector<ObservationMessage>> decodeObservations(BitReader reader) {
+  std::vector<ObservationMessage> scans(1);
+  scans[0].age = read(reader, kAge);
+  scans[0].pose = readPose(reader, kFinePosition, kFineYawBits);
+  scans[0].blobs = readBlobs(reader);
+  // What is less than a byte only fills the last one.
+  if (reader.ok() && reader.remainingBits() >= 8) scans.resize(1 + reader.bits(3));
+  for (std::size_t i = 1; i < scans.size(); ++i) {
+    scans[i].age = read(reader, kAge);
+    scans[i].pose.x = scans[0].pose.x + read(reader, kScanStep);
+    scans[i].pose.y = scans[0].pose.y + read(reader, kScanStep);
+    scans[i].pose.yaw = readAngle(reader, kFineYawBits);
+    scans[i].blobs = readBlobs(reader);
   }
-  return reader.ok() ? std::make_optional(observations) : std::nullopt;
+  return reader.ok() ? std::make_optional(scans) : std::nullopt;
 }
 
 }  // namespace parley

@@ -16,6 +16,7 @@ constexpr std::size_t kMaxWay = 15;            // [-] corners
 constexpr int kMaxDepth = 15;                  // [-]
 constexpr std::size_t kMaxConflicts = 7;       // [-]
 constexpr std::size_t kMaxBlobs = 8;           // [-]
+constexpr std::size_t kMaxObservedScans = 8;   // [-]
 constexpr std::size_t kMaxGroupRecords = 127;  // [-]
 
 /// Bodies of sections. Encoding needs what the checks in checks.h let pass; of lists that are too long the rest is left out.
@@ -25,7 +26,8 @@ void encode(BitWriter& writer, const std::vector<DigestEntry>& digest);
 void encode(BitWriter& writer, const TrajectoryMessage& trajectory);
 void encode(BitWriter& writer, const IntentMessage& intent);
 void encode(BitWriter& writer, const std::vector<Conflict>& conflicts);
-void encode(BitWriter& writer, const ObservationMessage& observations);
+/// Not empty. Scans that are too old or too far from the first to be told behind it are left out.
+void encode(BitWriter& writer, const std::vector<ObservationMessage>& scans);
 void encode(BitWriter& writer, const RecordGroup& group);
 
 /// nullopt if the body ends too early or holds what cannot be. What follows the fields known here is ignored.
@@ -35,7 +37,7 @@ std::optional<std::vector<DigestEntry>> decodeDigest(BitReader reader);
 std::optional<TrajectoryMessage> decodeTrajectory(BitReader reader);
 std::optional<IntentMessage> decodeIntent(BitReader reader);
 std::optional<std::vector<Conflict>> decodeConflicts(BitReader reader);
-std::optional<ObservationMessage> decodeObservations(BitReader reader);
+std::optional<std::vector<ObservationMessage>> decodeObservations(BitReader reader);
 std::optional<RecordGroup> decodeRecords(BitReader reader);
 
 /// No fewer bytes than the record adds to a group; the group's own are kGroupBytes.

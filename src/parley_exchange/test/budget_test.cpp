@@ -18,7 +18,7 @@ class Tour {
     team.loss = loss;
     for (std::size_t i = 0; i < count; ++i) {
       team.add(random_.real(-50.0, 50.0));
-      robots_.push_back({random_.pose(0.5 * side), 0.0, 0, {}, 0});
+      robots_.push_back({random_.pose(0.5 * side), 0.0, 0, {}, 0, {}});
     }
   }
 
@@ -49,11 +49,13 @@ class Tour {
     const double all = duration * static_cast<double>(robots_.size());
     const auto each = [all](std::size_t bytes) { return static_cast<double>(bytes) / all; };
     std::printf(
-        "%s: %.0f byte/s a robot in %.1f packets/s: trajectory %.0f, beacon %.0f, map %.0f, keyframe %.0f, frames and headers "
+        "%s: %.0f byte/s a robot in %.1f packets/s: trajectory %.0f, beacon %.0f, sightings %.0f, map %.0f, keyframe %.0f, "
+        "frames "
+        "and headers "
         "%.0f; "
         "%.0f %% of contours shared, %.0f %% of the records that came were new\n",
-        name, rate(duration), packets / all, each(sum.trajectory), each(sum.beacon), each(sum.map), each(sum.keyframe),
-        61.0 * packets / all, 100.0 * shared(), 100.0 * fresh / received);
+        name, rate(duration), packets / all, each(sum.trajectory), each(sum.beacon), each(sum.observation), each(sum.map),
+        each(sum.keyframe), 61.0 * packets / all, 100.0 * shared(), 100.0 * fresh / received);
   }
   /// Share of the contours and anchors of all robots that each of them holds. [-]
   double shared() {
@@ -76,6 +78,7 @@ class Tour {
     int seen;          // contours
     std::vector<OwnContour> contours;
     int keyframes;
+    std::vector<ObservationMessage> scans;  // the newest first
   };
 
   void relink() {
@@ -102,6 +105,7 @@ class Tour {
       team[i].publishKeyframe(random_.bytes(140), robot.pose, now, now);
     }
     see(i, now);
+    if (std::fmod(team.now, 0.1) < 0.05) sight(i, now);
     if (std::fmod(now, 2.0) < 0.05) recognise(i, now);
   }
 
@@ -124,6 +128,21 @@ class Tour {
       pose = integrateTwist(pose, k < 25 ? 1.0 : 0.2, turn, 0.1);
     }
     team[i].setTrajectory(SampledTrajectory(points), DriveState::kDriving);
+  }
+
+  /// Whoever is within the lidar's 4 m, and now and then a thing that is no robot.
+  void sight(std::size_t i, double now) {
+    Robot& robot = robots_[i];
+    ObservationMessage scan{0.0, robot.pose, {}};
+    if (std::fmod(robot.travelled, 6.0) < 2.0) scan.blobs.push_back({3.0, 1.0, 0.5});
+    for (const Robot& other : robots_) {
+      const double range = (other.pose.position() - robot.pose.position()).norm();
+      if (&other != &robot && range > 0.1 && range < 4.0 && scan.blobs.size() < 6) scan.blobs.push_back({range, 0.0, 0.5});
+    }
+    for (ObservationMessage& before : robot.scans) before.age += 0.1;
+    if (!scan.blobs.empty()) robot.scans.insert(robot.scans.begin(), scan);
+    if (robot.scans.size() > 4) robot.scans.pop_back();
+    team[i].setObservations(robot.scans, now);
   }
 
   void see(std::size_t i, double now) {
@@ -205,7 +224,7 @@ TEST(Budget, holdsWhateverIsAskedFor) {
     team[i].setOdometry(standing({std::fmod(x, 900.0), 0.0, 0.0}, now), DriveState::kDriving);
     team[i].setTrajectory(SampledTrajectory::standing({x, 0.0, 0.0}, now), DriveState::kDriving);
     team[i].setConflicts(std::vector<Conflict>(static_cast<std::size_t>(random.whole(0, 7))));
-    team[i].setObservations({0.0, {}, std::vector<Observation>(8, {1.0, 0.0, 0.5})}, now);
+    team[i].setObservations(std::vector<ObservationMessage>(4, {0.0, {}, std::vector<Observation>(8, {1.0, 0.0, 0.5})}), now);
     team[i].publishKeyframe(random.bytes(250), {}, now, now);
     if (random.chance(0.05)) team[i].publishContours(contours, now);
   });

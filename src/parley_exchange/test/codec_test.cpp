@@ -113,13 +113,40 @@ TEST(Packet, whatIsSentPassesTheChecks) {
     if (content.trajectory) {
       EXPECT_TRUE(plausible.holds(*content.trajectory)) << seed;
     }
-    if (content.observations) {
-      EXPECT_TRUE(plausible.holds(*content.observations)) << seed;
-    }
+    for (const ObservationMessage& scan : content.observations) EXPECT_TRUE(plausible.holds(scan)) << seed;
     for (const RecordGroup& group : content.records) {
       for (const Record& record : group.records) EXPECT_TRUE(plausible.holds(record)) << seed << "\n" << describe(content);
     }
   }
+}
+
+TEST(Packet, scansAreToldBehindTheNewestAsFarAsTheyCanBe) {
+  const std::vector<Observation> blobs{{2.0, 0.5, 0.4}};
+  PacketContent content;
+  content.observations = {{0.1, {3999.0, -20.0, 3.14}, blobs}};
+  const Bytes alone = encodePacket(content);
+  content.observations.push_back({0.2, {3998.5, -20.3, -3.14}, {}});
+  content.observations.push_back({1.3, {3998.0, -20.0, 3.14}, blobs});   // longer ago than can be said
+  content.observations.push_back({0.4, {3988.0, -20.0, 3.14}, blobs});   // farther away
+  content.observations.push_back({1.275, {3989.0, -10.0, 0.0}, blobs});  // just so
+  const Bytes all = encodePacket(content);
+  EXPECT_EQ(alone.size(), 4U + 2U + 13U) << "as it was before there was more than one";
+  // Who knows of one scan alone reads the same of it.
+  EXPECT_TRUE(std::equal(alone.begin() + 6, alone.end() - 1, all.begin() + 6));
+  const PacketContent decoded = decodePacket(all);
+  ASSERT_EQ(decoded.observations.size(), 3U);
+  EXPECT_NEAR(decoded.observations[1].pose.x, 3998.5, 1e-6);
+  EXPECT_NEAR(decoded.observations[1].pose.y, -20.3, 1e-6);
+  EXPECT_TRUE(decoded.observations[1].blobs.empty());
+  EXPECT_NEAR(decoded.observations[2].age, 1.275, 1e-9);
+  EXPECT_NEAR(decoded.observations[2].pose.x, 3989.0, 1e-6);
+  EXPECT_NEAR(decoded.observations[2].blobs.at(0).range, 2.0, 1e-9);
+  // One byte less, and nothing of it counts.
+  Bytes cut = all;
+  cut.pop_back();
+  cut[5] = static_cast<std::uint8_t>(cut[5] - 1);
+  EXPECT_TRUE(decodePacket(cut).observations.empty());
+  EXPECT_EQ(decodePacket(cut).malformed_sections, 1);
 }
 
 TEST(Packet, unknownSectionsAreSkipped) {

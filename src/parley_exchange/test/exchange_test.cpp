@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 #include <stdexcept>
 
 #include "team.h"
@@ -142,7 +143,7 @@ TEST(Exchange, conflictsAndObservationsArrive) {
   claim.round = 4;
   claim.place = Eigen::Vector2d(1.0, -2.0);
   EXPECT_TRUE(team[0].setConflicts({claim}));
-  EXPECT_TRUE(team[0].setObservations({0.0, {1.0, 1.0, 0.1}, {{2.0, 0.5, 0.4}}}, team.timeOf(0)));
+  EXPECT_TRUE(team[0].setObservations({{0.0, {1.0, 1.0, 0.1}, {{2.0, 0.5, 0.4}}}}, team.timeOf(0)));
   team.run(0.25);
   const auto conflicts = team[1].conflictsOf(team[0].id());
   ASSERT_TRUE(conflicts);
@@ -150,15 +151,61 @@ TEST(Exchange, conflictsAndObservationsArrive) {
   EXPECT_EQ(conflicts->conflicts[0].kind, ConflictKind::kYield);
   EXPECT_NEAR(conflicts->conflicts[0].place->y(), -2.0, 0.006);
   const auto observations = team[1].observationsOf(team[0].id(), team.timeOf(1));
-  ASSERT_TRUE(observations);
-  ASSERT_EQ(observations->blobs.size(), 1U);
-  EXPECT_NEAR(observations->blobs[0].range, 2.0, 0.003);
-  EXPECT_NEAR(observations->stamp, team.timeOf(1) - 0.25, 0.02);
+  ASSERT_EQ(observations.size(), 1U);
+  ASSERT_EQ(observations[0].blobs.size(), 1U);
+  EXPECT_NEAR(observations[0].blobs[0].range, 2.0, 0.003);
+  EXPECT_NEAR(observations[0].stamp, team.timeOf(1) - 0.25, 0.02);
   team[0].setConflicts({});
   team.run(0.5);
   EXPECT_TRUE(team[1].conflictsOf(team[0].id())->conflicts.empty());
   EXPECT_FALSE(team[1].conflictsOf(99));
-  EXPECT_FALSE(team[0].observationsOf(team[1].id(), team.timeOf(0)));
+  EXPECT_TRUE(team[0].observationsOf(team[1].id(), team.timeOf(0)).empty());
+}
+
+/// Of a hundred scans of ten seconds, how many another robot hears of; and what that costs. [-], [byte/s]
+std::pair<double, double> shareOfScans(double loss, bool confirmed) {
+  Team team = standingTeam(2, 6);
+  team.connectAll();
+  team.loss = loss;
+  std::vector<ObservationMessage> scans;
+  std::set<double> heard;
+  std::size_t before = 0;
+  team.run(30.0, [&](std::size_t i) {
+    team[i].setOdometry(standing({}, team.timeOf(i)), DriveState::kStopped);
+    PeerPose known;
+    known.T_odom_peer.covariance.setIdentity();
+    if (confirmed) known.state = EdgeState::kConfirmed;
+    team[i].setPeerPose(team[1 - i].id(), known, team.timeOf(i));
+    if (team.now < 110.0) before = team[0].counters().sections_sent.observation;
+    if (i == 0 && std::fmod(team.now + 0.01, 0.1) < 0.05) {
+      for (ObservationMessage& scan : scans) scan.age += 0.1;
+      scans.insert(scans.begin(), {0.0, {}, {{team.now - 100.0, 0.0, 0.5}}});  // the range says which one it is
+      if (scans.size() > 8) scans.pop_back();
+      team[0].setObservations(scans, team.timeOf(0));
+    }
+    if (i == 0) return;
+    for (const PeerObservations& scan : team[1].observationsOf(team[0].id(), team.timeOf(1))) {
+      const double range = scan.blobs.at(0).range;
+      if (range < 9.9 || range > 19.9) continue;  // by then clocks are known; more than 20 m does not fit
+      EXPECT_NEAR(scan.stamp - team.members[1].clock_offset, 100.0 + range, 0.05);
+      heard.insert(std::round(10.0 * range));
+    }
+  });
+  return {static_cast<double>(heard.size()) / 100.0,
+          static_cast<double>(team[0].counters().sections_sent.observation - before) / 20.0};
+}
+
+TEST(Exchange, scansAreToldAgainWhereMuchIsLost) {
+  const auto [all, all_bytes] = shareOfScans(0.0, false);
+  const auto [few, few_bytes] = shareOfScans(0.8, false);
+  const auto [known, known_bytes] = shareOfScans(0.8, true);
+  std::printf(
+      "scans heard of: %.2f without loss (%.0f byte/s), %.2f at 80 %% loss (%.0f), %.2f to a robot that is known (%.0f)\n", all,
+      all_bytes, few, few_bytes, known, known_bytes);
+  EXPECT_GT(few, 2.0 * known);
+  EXPECT_LT(few_bytes, 350.0);
+  EXPECT_LT(all_bytes, 120.0);
+  EXPECT_LT(known_bytes, 120.0);
 }
 
 TEST(Exchange, whatIsNotFiniteIsRefusedAndCounted) {
@@ -171,7 +218,7 @@ TEST(Exchange, whatIsNotFiniteIsRefusedAndCounted) {
   conflict.cost = nan;
   EXPECT_FALSE(exchange.setConflicts({conflict}));
   EXPECT_FALSE(exchange.setConflicts(std::vector<Conflict>(20)));
-  EXPECT_FALSE(exchange.setObservations({0.0, {}, {{nan, 0.0, 0.0}}}, 1.0));
+  EXPECT_FALSE(exchange.setObservations({{0.0, {}, {{nan, 0.0, 0.0}}}}, 1.0));
   EXPECT_FALSE(exchange.publishKeyframe(Bytes(1000), {}, 1.0, 1.0));
   EXPECT_FALSE(exchange.setPeerPose(5, PeerPose(), 1.0)) << "no covariance";
   EXPECT_FALSE(exchange.setPeerPose(exchange.id(), confirmedAt(1.0), 1.0));

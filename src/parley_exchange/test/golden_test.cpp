@@ -79,7 +79,16 @@ PacketContent motionPacket() {
       {robotIdOf("robot_2"), ConflictKind::kClaim, 5, 12.3, 2.5, std::nullopt},
       {robotIdOf("robot_3"), ConflictKind::kYield, 63, 0.0, 0.5, Eigen::Vector2d(-3.5, 4.25)},
   };
-  content.observations = ObservationMessage{0.04, {1.5, -2.25, 0.5}, {{2.345, -1.0, 0.42}, {3.9, 3.0, 0.8}}};
+  content.observations = {{0.04, {1.5, -2.25, 0.5}, {{2.345, -1.0, 0.42}, {3.9, 3.0, 0.8}}}};
+  return content;
+}
+
+PacketContent sightingsPacket() {
+  PacketContent content;
+  content.stamp = 77;
+  content.observations = {{0.04, {1.5, -2.25, 3.1}, {{2.345, -1.0, 0.42}, {3.9, 3.0, 0.8}}},
+                          {0.14, {1.7, -2.26, 3.14}, {{2.54, -1.02, 0.42}}},
+                          {0.94, {3.45, -1.995, -3.1}, {}}};
   return content;
 }
 
@@ -114,8 +123,9 @@ std::string goldenText() {
          "# team key = " +
          std::string(kKey) + "\n\n[a beacon with echoes and coverage]\n" + vectorOf(encodePacket(beaconPacket()), 1) +
          "\n[a trajectory, conflicts, observations]\n" + vectorOf(encodePacket(motionPacket()), 2) +
-         "\n[records of each kind]\n" + vectorOf(encodePacket(recordsPacket()), 3) +
-         "\n[an unknown section and one that is too short]\n" + vectorOf(unknown, 0xfffffffe);
+         "\n[records of each kind]\n" + vectorOf(encodePacket(recordsPacket()), 3) + "\n[sightings of three scans]\n" +
+         vectorOf(encodePacket(sightingsPacket()), 4) + "\n[an unknown section and one that is too short]\n" +
+         vectorOf(unknown, 0xfffffffe);
 }
 
 std::string contentOf(const std::string& path) {
@@ -153,7 +163,7 @@ TEST(Golden, theFileHoldsTheVectors) {
 
 TEST(Golden, theDumpToolReadsTheFile) {
   const std::vector<Bytes> frames = readDatagrams(kFile);
-  ASSERT_EQ(frames.size(), 4U);
+  ASSERT_EQ(frames.size(), 5U);
   Sealer sealer(parseTeamKey(kKey));
   for (const Bytes& frame : frames) EXPECT_TRUE(sealer.open(*readHeader(frame), frame));
 }

@@ -64,12 +64,16 @@ Conflict RandomContent::conflict() {
   return conflict;
 }
 
-ObservationMessage RandomContent::observations() {
-  ObservationMessage observations;
-  observations.age = real(0.0, 0.5);
-  observations.pose = pose(500.0);
-  for (int i = whole(0, 8); i > 0; --i) observations.blobs.push_back({real(0.1, 19.0), real(-kPi, kPi), real(0.0, 1.0)});
-  return observations;
+std::vector<ObservationMessage> RandomContent::observations() {
+  std::vector<ObservationMessage> scans(static_cast<std::size_t>(whole(1, 4)));
+  const Pose2 newest = pose(500.0);
+  for (ObservationMessage& scan : scans) {
+    scan.age = real(0.0, 1.2);
+    const Pose2 step = pose(10.0);
+    scan.pose = &scan == &scans.front() ? newest : Pose2{newest.x + step.x, newest.y + step.y, step.yaw};
+    for (int i = whole(0, 8); i > 0; --i) scan.blobs.push_back({real(0.1, 19.0), real(-kPi, kPi), real(0.0, 1.0)});
+  }
+  return scans;
 }
 
 DigestEntry RandomContent::digestEntry() {

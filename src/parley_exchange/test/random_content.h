@@ -17,7 +17,7 @@ class RandomContent {
   Beacon beacon();
   TrajectoryMessage trajectory();
   Conflict conflict();
-  ObservationMessage observations();
+  std::vector<ObservationMessage> observations();
   DigestEntry digestEntry();
   RecordGroup group();
   Record record(std::uint32_t sequence);

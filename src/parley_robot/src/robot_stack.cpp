@@ -28,6 +28,9 @@ PlannerOptions plannerOf(const RobotOptions& options) {
 
 RobotStack::RobotStack(const RobotOptions& options)
     : options_(usable(options)),
+      smooth_({options.wiring.correction_distance, options.wiring.correction_angle, options.wiring.jump_distance,
+               options.wiring.jump_angle},
+              options.limits),
       odometry_(2.0, 2000, options.wiring.jump_distance, options.wiring.jump_angle),
       lidar_(options.lidar, options.footprint, options.mount),
       topology_(options.topology, options.footprint),
@@ -51,7 +54,7 @@ void RobotStack::joinTeam() {
 }
 
 bool RobotStack::setGoal(const Eigen::Vector2d& goal_odom) {
-  if (!goal_.set(goal_odom)) return false;
+  if (!goal_.set(smooth_.T_odom_local().inverse() * goal_odom)) return false;
   route_ = {};
   planner_.reset();
   return true;
@@ -63,7 +66,13 @@ void RobotStack::cancelGoal() {
 }
 
 void RobotStack::addOdometry(const Odometry& odometry) {
-  switch (odometry_.add(odometry)) {
+  const Pose2 T_odom_before = smooth_.T_odom_local();
+  const Odometry local = smooth_.add(odometry);
+  if (smooth_.corrections() > counters_.odometry_corrections) {
+    counters_.odometry_corrections = smooth_.corrections();
+    goal_.carry(smooth_.T_odom_local().inverse() * T_odom_before);
+  }
+  switch (odometry_.add(local)) {
     case OdometryVerdict::kAccepted:
       break;
     case OdometryVerdict::kNotFinite:

@@ -12,6 +12,7 @@ namespace parley {
 namespace {
 
 constexpr double kKeyframeSpacing = 1.5;   // [m] between keyframes that are told
+constexpr double kToldSpan = 1.0;          // [s] of sightings that are told
 constexpr double kMapPeriod = 1.0;         // [s] between two tellings and two drawings of maps
 constexpr double kHardSigma = 0.15;        // [m] outlines known better than this are obstacles,
 constexpr double kHardStays = 0.2;         // [m] and stay so up to here
@@ -64,6 +65,22 @@ EdgeState edgeStateOf(PoseState state) {
   return state == PoseState::kTentative ? EdgeState::kTentative : EdgeState::kWithdrawn;
 }
 
+ObservationMessage observationsOf(const SightReport& report, double now) {
+  ObservationMessage message{std::max(0.0, now - report.stamp), report.T_odom_scan, {}};
+  for (const SightedBlob& blob : report.blobs) {
+    message.blobs.push_back({blob.position.norm(), std::atan2(blob.position.y(), blob.position.x()), blob.chord});
+  }
+  return message;
+}
+
+SightReport reportOf(const PeerObservations& sights) {
+  SightReport report{sights.stamp, sights.pose, {}};
+  for (const Observation& o : sights.blobs) {
+    report.blobs.push_back({{o.range * std::cos(o.bearing), o.range * std::sin(o.bearing)}, o.chord});
+  }
+  return report;
+}
+
 std::int64_t keyOf(const Contour& contour) {
   return (static_cast<std::int64_t>(contour.tile.x()) * 65536 + contour.tile.y()) * 4096 + contour.piece;
 }
@@ -87,16 +104,11 @@ void TeamLink::addScan(const Pose2& T_odom_base, const ObstacleScan& scan, doubl
     }
     break;
   }
-  const std::vector<SightReport> reports = localization_.sights(told_sights_);
-  if (reports.empty()) return;
-  const SightReport& report = reports.back();
-  ObservationMessage message;
-  message.pose = report.T_odom_scan;
-  for (const SightedBlob& blob : report.blobs) {
-    message.blobs.push_back({blob.position.norm(), std::atan2(blob.position.y(), blob.position.x()), blob.chord});
+  std::vector<ObservationMessage> told;
+  for (const SightReport& report : localization_.sights(now - kToldSpan)) {
+    told.insert(told.begin(), observationsOf(report, now));  // the newest first
   }
-  told_sights_ = report.stamp;
-  exchange_.setObservations(message, report.stamp);
+  exchange_.setObservations(told, now);
 }
 
 void TeamLink::hear(const PeerState& peer, double now) {
@@ -111,15 +123,10 @@ void TeamLink::hear(const PeerState& peer, double now) {
     localization_.addPeerMotion(name, {peer.odometry.stamp, peer.odometry.pose, peer.odometry.twist, peer.footprint,
                                        travelOf(peer.id, peer.odometry.pose)});
   }
-  if (const std::optional<PeerObservations> sights = exchange_.observationsOf(peer.id, now);
-      sights && sights->stamp > heard.sights) {
-    heard.sights = sights->stamp;
-    SightReport report{sights->stamp, sights->pose, {}};
-    for (const Observation& o : sights->blobs) {
-      report.blobs.push_back({{o.range * std::cos(o.bearing), o.range * std::sin(o.bearing)}, o.chord});
-    }
-    localization_.addPeerSights(name, report);
+  for (const PeerObservations& sights : exchange_.observationsOf(peer.id, now)) {
+    if (sights.received > heard.sights) localization_.addPeerSights(name, reportOf(sights));
   }
+  heard.sights = now;
   for (const SharedKeyframe& keyframe : exchange_.keyframesOf(peer.id, now)) {
     if (keyframe.id < heard.next_keyframe) continue;
     heard.next_keyframe = keyframe.id + 1;

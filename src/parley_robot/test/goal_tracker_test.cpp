@@ -46,6 +46,20 @@ TEST(GoalTracker, CancelledOrNewGoalIsNotArrived) {
 }
 
 }  // namespace
+TEST(GoalTracker, CarriedIntoAnotherFrameItIsTheSameGoal) {
+  GoalTracker goal(0.3, 0.2);
+  goal.carry({1.0, 0.0, 0.0});
+  EXPECT_FALSE(goal.goal());
+  goal.set({2.0, 0.0});
+  EXPECT_TRUE(goal.update({0.0, {2.0, 0.0, 0.0}, {}, 0.0, 0.0}));
+  goal.carry({0.3, 0.0, 0.0});
+  EXPECT_NEAR(goal.goal()->x(), 2.3, 1e-12);
+  EXPECT_TRUE(goal.update({0.1, {2.0, 0.0, 0.0}, {}, 0.0, 0.0})) << "near enough to stay";
+  goal.carry({0.0, 0.0, 0.5 * kPi});
+  EXPECT_NEAR(goal.goal()->y(), 2.3, 1e-12);
+  EXPECT_FALSE(goal.update({0.2, {2.0, 0.0, 0.0}, {}, 0.0, 0.0}));
+}
+
 }  // namespace parley
 
 int main(int argc, char** argv) {

@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <optional>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,8 +25,8 @@ inline RobotOptions optionsOf(const std::string& name, Variant variant) {
 
 /// A robot and where it is; nothing that it knows is right but by its own doing.
 struct Robot {
-  Robot(const std::string& name, const Pose2& start, double clock_ahead, Variant variant = Variant::kFull)
-      : stack(optionsOf(name, variant)), T_world_odom(start), clock(clock_ahead) {
+  Robot(const RobotOptions& options, const Pose2& start, double clock_ahead)
+      : stack(options), T_world_odom(start), clock(clock_ahead) {
     drive.pose = start;
   }
   Pose2 odometry() const { return T_world_odom.inverse() * drive.pose; }
@@ -42,14 +43,18 @@ struct Robot {
 /// Robots in one world, in lockstep at 50 Hz, with a radio that delays by a step.
 class Meeting {
  public:
-  explicit Meeting(std::vector<Wall> walls) : walls_(std::move(walls)) {}
+  explicit Meeting(std::vector<Wall> walls, unsigned seed = 1) : walls_(std::move(walls)), random_(seed) {}
   Robot& add(const std::string& name, const Pose2& start, double clock_ahead, Variant variant = Variant::kFull) {
-    return robots_.emplace_back(name, start, clock_ahead, variant);
+    return add(optionsOf(name, variant), start, clock_ahead);
+  }
+  Robot& add(const RobotOptions& options, const Pose2& start, double clock_ahead) {
+    return robots_.emplace_back(options, start, clock_ahead);
   }
   void run(double seconds) {
     for (const double end = time_ + seconds; time_ < end;) step();
   }
   double time() const { return time_; }
+  double loss = 0.0;  // [-] share of the packets, for each receiver by itself
   void setWalls(std::vector<Wall> walls) { walls_ = std::move(walls); }
 
   /// How far off a robot's idea of another's place is; nullopt unless it is confirmed. [m]
@@ -57,7 +62,9 @@ class Meeting {
     const auto& teammates = robot.stack.team()->teammates();
     const auto found = teammates.find(robotIdOf(name));
     if (found == teammates.end() || found->second.estimate.state != PoseState::kConfirmed) return std::nullopt;
-    const Pose2 believed = robot.T_world_odom * found->second.estimate.T_odom_peerodom.pose * other.odometry();
+    const Pose2 T_local_base = other.stack.T_odom_local().inverse() * other.odometry();
+    const Pose2 believed =
+        robot.T_world_odom * robot.stack.T_odom_local() * found->second.estimate.T_odom_peerodom.pose * T_local_base;
     return (believed.position() - other.drive.pose.position()).norm();
   }
 
@@ -72,7 +79,9 @@ class Meeting {
       if (count_ % 5 == static_cast<int>(i) % 5) robot.stack.addScan(scanFrom(seenBy(i), robot.drive.pose, now));
       for (std::size_t k = 0; k < robots_.size(); ++k) {
         if (k == i || !robots_[k].radio || !robot.radio) continue;
-        for (const Packet& packet : sent_[k]) robot.stack.addPacket(packet);
+        for (const Packet& packet : sent_[k]) {
+          if (std::uniform_real_distribution<double>(0.0, 1.0)(random_) >= loss) robot.stack.addPacket(packet);
+        }
       }
       robot.output = robot.stack.step(now);
       robot.drive.step(robot.output.twist, {2.0, 1.5708, 2.0, 4.0}, 0.02);
@@ -92,6 +101,7 @@ class Meeting {
   }
 
   std::vector<Wall> walls_;
+  std::mt19937 random_;
   std::deque<Robot> robots_;
   std::vector<std::vector<Packet>> sent_ = std::vector<std::vector<Packet>>(8);
   double time_ = 0.0;

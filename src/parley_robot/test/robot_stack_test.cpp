@@ -149,6 +149,36 @@ TEST(RobotStack, OdometryJumpDropsTheMapAndIsCounted) {
   EXPECT_FALSE(world.touched());
 }
 
+TEST(RobotStack, OdometryIsCorrectedAndItDrivesOn) {
+  for (const Pose2& correction : {Pose2{0.3, 0.0, 0.052}, Pose2{-0.2, 0.22, -0.052}, Pose2{0.0, -0.3, 0.052}}) {
+    RobotInWorld world(roomWithBox());
+    world.stack().setGoal({8.0, 0.0});
+    world.run(2.0);
+    const double speed = world.drive().twist.speed;
+    ASSERT_GT(speed, 0.3);
+    const std::size_t contours = world.stack().topology().contours().size();
+    world.offset = world.drive().pose * correction * world.drive().pose.inverse();
+    const Pose2 before = world.stack().odometry().latest().pose;
+    world.step();
+    EXPECT_EQ(world.stack().counters().odometry_corrections, 1);
+    EXPECT_LT((world.stack().odometry().latest().pose.position() - before.position()).norm(), 0.05) << "inside nothing jumps";
+    EXPECT_EQ(world.stack().topology().contours().size(), contours);
+    for (int i = 0; i < 25; ++i) {
+      EXPECT_EQ(world.step().state, DriveState::kDriving);
+      EXPECT_GT(world.drive().twist.speed, 0.5 * speed);
+    }
+    EXPECT_EQ(world.run(40.0).state, DriveState::kArrived);
+    EXPECT_LT(((world.offset * world.drive().pose).position() - Eigen::Vector2d(8.0, 0.0)).norm(), 0.3);
+    EXPECT_FALSE(world.touched());
+    EXPECT_EQ(world.stack().counters().odometry_jumps, 0);
+    // A goal that is given now is in the corrected frame too.
+    world.stack().setGoal({0.0, 0.0});
+    for (int i = 0; i < 25; ++i) world.step();
+    EXPECT_EQ(world.run(40.0).state, DriveState::kArrived);
+    EXPECT_LT((world.offset * world.drive().pose).position().norm(), 0.3);
+  }
+}
+
 TEST(RobotStack, TimeGoingBackStartsAnew) {
   RobotInWorld world(roomWithBox());
   world.stack().setGoal({8.0, 0.0});

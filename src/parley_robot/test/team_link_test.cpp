@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "meeting.h"
 
 namespace parley {
@@ -42,6 +44,40 @@ TEST(TeamLink, robotsThatMeetKnowWhereTheOtherIs) {
   EXPECT_EQ(a.stack.team()->teammates().at(robotIdOf("bob")).name, "bob");
 }
 
+/// Two robots pass each other; how many seconds of ten each of them knows where the other is, in the mean over both. [s]
+double secondsKnown(int max_reports, double loss, unsigned seed) {
+  Meeting meeting(hall(), seed);
+  meeting.loss = loss;
+  RobotOptions ann = test::optionsOf("ann", Variant::kFull), bob = test::optionsOf("bob", Variant::kFull);
+  ann.relative_localization.max_reports = bob.relative_localization.max_reports = max_reports;
+  Robot& a = meeting.add(ann, {1.5, 3.0, 0.2}, 0.0);
+  Robot& b = meeting.add(bob, {14.5, 5.0, 3.0}, 0.0);
+  a.go({14.5, 3.2});
+  b.go({1.5, 5.2});
+  double known = 0.0;
+  while (meeting.time() < 10.0) {
+    meeting.run(0.1);
+    for (const auto& error : {Meeting::errorOf(a, b, "bob"), Meeting::errorOf(b, a, "ann")}) {
+      if (!error) continue;
+      EXPECT_LT(*error, 0.3) << "seed " << seed;
+      known += 0.05;
+    }
+  }
+  return known;
+}
+
+TEST(TeamLink, whereMuchIsLostTellingAgainHelps) {
+  for (const double loss : {0.8, 0.9}) {
+    double once = 0.0, again = 0.0;
+    for (unsigned seed = 1; seed <= 5; ++seed) {
+      once += 0.2 * secondsKnown(1, loss, seed);
+      again += 0.2 * secondsKnown(4, loss, seed);
+    }
+    std::printf("%.0f %% lost: known for %.2f s, with sightings told again %.2f s\n", 100.0 * loss, once, again);
+    EXPECT_GT(again, (loss > 0.85 ? 1.5 : 1.1) * once);
+  }
+}
+
 TEST(TeamLink, mapsAreSharedOnlyWhereThatIsWanted) {
   for (const Variant variant : {Variant::kFull, Variant::kNoSharing}) {
     Meeting meeting(hall());
@@ -71,6 +107,46 @@ TEST(TeamLink, aRobotThatStartsAnewIsAnotherOne) {
   EXPECT_EQ(b.stack.counters().odometry_jumps, 1);
   const auto error = Meeting::errorOf(a, b, "bob");
   EXPECT_TRUE(!error || *error < 0.3) << *error;  // what was known is not believed of the new frame
+}
+
+TEST(TeamLink, aCorrectionOfOdometryIsNothingThatOthersNotice) {
+  std::array<double, 2> told{};  // [byte] of the map, without and with a correction
+  for (const bool corrected : {false, true}) {
+    Meeting meeting(hall());
+    Robot& a = meeting.add("ann", {1.5, 3.0, 0.2}, 0.0);
+    Robot& b = meeting.add("bob", {14.5, 5.0, 3.0}, 0.0);
+    a.go({14.5, 3.2});
+    b.go({1.5, 5.2});
+    meeting.run(6.0);
+    ASSERT_TRUE(Meeting::errorOf(a, b, "bob") && Meeting::errorOf(b, a, "ann"));
+    ASSERT_GT(b.drive.twist.speed, 0.5);
+    const auto mapBytes = [&b] { return static_cast<double>(b.stack.team()->exchange().counters().sections_sent.map); };
+    const double before = mapBytes();
+    const std::vector<SharedAnchor> anchors = a.stack.team()->exchange().anchorsOf(robotIdOf("bob"));
+    // 0.3 m and 3 degrees off what it was, where the robot is.
+    if (corrected) b.T_world_odom = b.drive.pose * Pose2{0.2, -0.22, 0.052} * b.odometry().inverse();
+    for (int i = 0; i < 15; ++i) {
+      meeting.run(0.2);
+      const auto a_of_b = Meeting::errorOf(a, b, "bob"), b_of_a = Meeting::errorOf(b, a, "ann");
+      ASSERT_TRUE(a_of_b && b_of_a) << i;
+      EXPECT_LT(*a_of_b, 0.12) << i;
+      EXPECT_LT(*b_of_a, 0.12) << i;
+    }
+    EXPECT_EQ(b.stack.counters().odometry_corrections, corrected ? 1 : 0);
+    EXPECT_EQ(b.stack.counters().odometry_jumps, 0);
+    told[corrected ? 1 : 0] = mapBytes() - before;
+    for (const SharedAnchor& anchor : anchors) {
+      for (const SharedAnchor& now : a.stack.team()->exchange().anchorsOf(robotIdOf("bob"))) {
+        EXPECT_TRUE(now.id != anchor.id || now.pose == anchor.pose);
+      }
+    }
+    meeting.run(7.0);
+    EXPECT_EQ(b.output.state, DriveState::kArrived);
+    const Eigen::Vector2d goal = b.T_world_odom * (Pose2{14.5, 5.0, 3.0}.inverse() * Eigen::Vector2d(1.5, 5.2));
+    EXPECT_LT((b.drive.pose.position() - goal).norm(), 0.3) << "where odometry now has it";
+  }
+  std::printf("3 s of map: %.0f byte, with a correction %.0f\n", told[0], told[1]);
+  EXPECT_LT(told[1], 1.25 * told[0] + 50.0);
 }
 
 TEST(TeamLink, aThirdIsKnownThroughTheSecond) {

@@ -58,7 +58,9 @@ class Exchange {
   bool setIntent(const IntentMessage& intent);
   /// All that hold now; an empty list releases all.
   bool setConflicts(const std::vector<Conflict>& conflicts);
-  bool setObservations(const ObservationMessage& observations, double stamp);
+  /// Scans that saw something, the newest first, with their ages at `now`. The newest goes out once, and where much is lost
+  /// to robots whose pose is not known, those before it again.
+  bool setObservations(const std::vector<ObservationMessage>& scans, double now);
   /// Replaces the keyframe before the eighth last; the id that peers see.
   std::optional<std::uint32_t> publishKeyframe(const Bytes& descriptor, const Pose2& T_odom_base, double stamp, double now);
   /// All contours known now. Those that changed are published, those that are gone withdrawn, and those that a confirmed
@@ -85,7 +87,8 @@ class Exchange {
   std::optional<PeerTrajectory> trajectoryOf(RobotId peer, double now) const;
   std::optional<PeerIntent> intentOf(RobotId peer) const;
   std::optional<PeerConflicts> conflictsOf(RobotId peer) const;
-  std::optional<PeerObservations> observationsOf(RobotId peer, double now) const;
+  /// The last 16 scans that the peer told of, each once, in the order in which they came.
+  std::vector<PeerObservations> observationsOf(RobotId peer, double now) const;
   /// Robots whose maps are held, this one included if it has published anything.
   std::vector<RobotId> origins() const;
   /// Counts changes of what is held of an origin's map, so that one looks only when there is something new. [-]

@@ -84,6 +84,7 @@ struct Observation {
   double chord = 0.0;    // [m] width across the line of sight
 };
 
+/// What one scan saw.
 struct ObservationMessage {
   double age = 0.0;  // [s] of the scan when the packet was sent
   Pose2 pose;        // T_odom_base at the scan
@@ -107,7 +108,7 @@ struct PacketContent {
   std::optional<TrajectoryMessage> trajectory;
   std::optional<IntentMessage> intent;
   std::optional<std::vector<Conflict>> conflicts;  // all that hold; an empty list releases all
-  std::optional<ObservationMessage> observations;
+  std::vector<ObservationMessage> observations;    // one a scan, the newest first
   std::vector<RecordGroup> records;
   int unknown_sections = 0;    // [-] of types that this version does not know
   int malformed_sections = 0;  // [-] that could not be read; left out

@@ -51,7 +51,7 @@ struct PeerConflicts {
   std::vector<Conflict> conflicts;
 };
 
-/// Blobs that a peer saw, with its pose then.
+/// Blobs that a scan of a peer saw, with its pose then.
 struct PeerObservations {
   double stamp = 0.0;     // [s] of the scan
   double received = 0.0;  // [s]

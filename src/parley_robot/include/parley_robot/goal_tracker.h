@@ -15,6 +15,10 @@ class GoalTracker {
 
   /// A goal in the odom frame; refused (false) if not finite.
   bool set(const Eigen::Vector2d& goal_odom);
+  /// The frame has moved, the robot in it has not: the same goal in the new one.
+  void carry(const Pose2& T_new_old) {
+    if (goal_) goal_ = T_new_old * *goal_;
+  }
   void cancel() { goal_.reset(); }
 
   /// Brings `arrived()` up to date with a new reading; returns it.

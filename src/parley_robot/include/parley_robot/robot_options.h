@@ -21,13 +21,15 @@ enum class Variant { kFull, kNoSharing, kNoConflictResolution, kReactive };
 
 /// Rates and delays of the glue between the stages.
 struct WiringOptions {
-  double topology_rate = 5.0;       // [Hz]
-  double plan_rate = 10.0;          // [Hz]
-  double plan_delay = 0.05;         // [s]
-  double local_map_size = 10.0;     // [m]
-  double jump_distance = 1.0;       // [m]
-  double jump_angle = 1.0;          // [rad]
-  double arrival_hysteresis = 0.2;  // [m]
+  double topology_rate = 5.0;        // [Hz]
+  double plan_rate = 10.0;           // [Hz]
+  double plan_delay = 0.05;          // [s]
+  double local_map_size = 10.0;      // [m]
+  double jump_distance = 1.0;        // [m]
+  double jump_angle = 1.0;           // [rad]
+  double correction_distance = 0.1;  // [m]
+  double correction_angle = 0.03;    // [rad]
+  double arrival_hysteresis = 0.2;   // [m]
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -37,6 +39,9 @@ struct WiringOptions {
     v.number("local_map_size", local_map_size, "m", 4.0, 40.0, "side of the window of the map that the planner sees");
     v.number("jump_distance", jump_distance, "m", 0.1, 100.0, "odometry that moves further between two readings has jumped");
     v.number("jump_angle", jump_angle, "rad", 0.1, 3.2, "odometry that turns further between two readings has jumped");
+    v.number("correction_distance", correction_distance, "m", 0.02, 100.0,
+             "odometry that is further off than twist and limits explain was corrected");
+    v.number("correction_angle", correction_angle, "rad", 0.005, 3.2, "odometry that turned so much more was corrected");
     v.number("arrival_hysteresis", arrival_hysteresis, "m", 0.0, 5.0,
              "an arrived robot drives again when it is pushed this far beyond the tolerance");
   }

@@ -12,6 +12,7 @@
 #include "parley_robot/packet.h"
 #include "parley_robot/periodic.h"
 #include "parley_robot/robot_options.h"
+#include "parley_robot/smooth_odometry.h"
 #include "parley_robot/stage_times.h"
 #include "parley_robot/team_link.h"
 
@@ -31,14 +32,16 @@ struct RobotOutput {
 
 /// What was thrown away and why, since the start.
 struct RobotCounters {
-  int odometry_rejected = 0;  // [-] not finite or out of order
-  int odometry_jumps = 0;     // [-] each drops the map
-  int time_resets = 0;        // [-] the clock went back; each starts the robot anew
-  int scans_rejected = 0;     // [-] empty, malformed, without odometry
+  int odometry_rejected = 0;     // [-] not finite or out of order
+  int odometry_jumps = 0;        // [-] each drops the map
+  int odometry_corrections = 0;  // [-] each moves the frame that all inside is in
+  int time_resets = 0;           // [-] the clock went back; each starts the robot anew
+  int scans_rejected = 0;        // [-] empty, malformed, without odometry
 };
 
 /// A whole robot: everything between its sensors and its wheels. It gets time, odometry with drift, lidar, packets and a
 /// goal in its own odom frame, and nothing else; it does not know of any world frame. Same inputs, same outputs.
+/// All inside, and all that it tells others, is in the local frame, which stays smooth when odometry is corrected.
 class RobotStack {
  public:
   /// Throws std::invalid_argument with all problems if the options are not usable.
@@ -60,6 +63,8 @@ class RobotStack {
   RobotOutput step(double now);
 
   const OdometryBuffer& odometry() const { return odometry_; }
+  /// Where the frame of all that is asked for here lies in that of odometry and goal; identity until the first correction.
+  const Pose2& T_odom_local() const { return smooth_.T_odom_local(); }
   const Topology& topology() const { return topology_; }
   const CommittedPlan& plan() const { return plan_; }
   const PlanResult& lastPlan() const { return last_plan_; }
@@ -83,6 +88,7 @@ class RobotStack {
   Route straightRoute() const;
 
   RobotOptions options_;
+  SmoothOdometry smooth_;
   OdometryBuffer odometry_;
   LidarStage lidar_;
   Topology topology_;

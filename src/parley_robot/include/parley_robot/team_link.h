@@ -76,8 +76,8 @@ class TeamLink {
 
   /// What of a peer has been passed on to relative localization.
   struct Heard {
-    double motion = -1e9;             // [s] stamps of the newest ones
-    double sights = -1e9;             // [s]
+    double motion = -1e9;             // [s] stamp of the newest
+    double sights = -1e9;             // [s] those that came until then
     std::uint32_t next_keyframe = 0;  // [-] id
   };
   /// What of an origin's map is drawn.
@@ -112,7 +112,6 @@ class TeamLink {
   std::vector<Refuted> refuted_;                   // since maps were drawn last
   std::set<RobotId> told_poses_;                   // whose pose has been given to the exchange
   std::optional<Eigen::Vector2d> told_keyframe_;   // [m] where the last one was
-  double told_sights_ = -1e9;                      // [s]
   double told_map_at_ = -1e9;                      // [s]
 };
 
