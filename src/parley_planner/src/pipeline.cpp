@@ -30,6 +30,8 @@ SightLawOptions sightLaw(const PlannerOptions& options, const Footprint& footpri
   law.intruder_clearance = options.sight_clearance;
   law.reaction_time = options.sight_reaction_time;
   law.contact_distance = 0.25 * (3.0 * footprint.length + footprint.width);  // between end to end and end to side
+  law.half_length = 0.5 * footprint.length;
+  law.half_width = 0.5 * footprint.width;
   law.least_speed = options.sight_least_speed;
   return law;
 }

@@ -24,6 +24,10 @@ constexpr double kFreshReach = 0.6;     // [m] round new returns, where ways may
 constexpr double kJump = 0.2;           // [m] of range between neighbours: one thing ends and another begins
 constexpr int kNewTrack = 4;            // scans before a thing's velocity is believed
 constexpr double kYoung = 2.0;          // [s] since first sight
+constexpr double kWalking = 0.3;        // [m/s]
+constexpr double kWalkerMemory = 2.0;   // [s] somebody who stands may walk on as before
+constexpr double kForgetting = 0.2;     // [m/s^2]
+constexpr double kWalkerGap = 0.2;      // [m] who walks past further aside does not walk into the robot
 constexpr double kStandingGrace = 0.3;  // [m] less than on one that drives is enough on one that may start
 constexpr double kTrackRim = 0.5;       // [m] its own returns close the cells round a thing off up to here
 
@@ -206,6 +210,7 @@ void SightLaw::observe(const Surroundings& surroundings, const ObstacleScan& sca
   const Mask unseen = hidden(seen_through);
   possible_ = driven(possible_, prices, unseen, now - updated_at_);
   followLost(tracks, prices, unseen, now);
+  followWalkers(tracks, pose, now);
   // How far off it is from everywhere; nothing comes through the robot from behind.
   Costs sources(possible_.size(), 2 * kFar);
   for (std::size_t i = 0; i < sources.size(); ++i) {
@@ -339,11 +344,47 @@ bool SightLaw::possibleAt(const Eigen::Vector2d& p_odom) const {
   return !frame_.contains(cell) || possible_.empty() || possible_[static_cast<std::size_t>(frame_.indexOf(cell))];
 }
 
+void SightLaw::followWalkers(const std::vector<TrackedObject>& tracks, const Pose2& pose, double now) {
+  std::map<int, Walker> walkers;
+  for (const TrackedObject& track : tracks) {
+    const bool behind = (pose.inverse() * track.position).x() < 0.0;
+    if (track.id < 0 || behind) continue;
+    Walker walker;
+    if (const auto known = walkers_.find(track.id); known != walkers_.end()) walker = known->second;
+    walker.position = track.position;
+    walker.radius = track.radius;
+    if (const double speed = track.velocity.norm(); track.moving && speed > kWalking) {
+      walker.direction = track.velocity / speed;
+      walker.speed = std::max(speed, now - walker.walked < kWalkerMemory ? walker.speed - kForgetting * (now - walker.walked) : 0.0);
+      walker.walked = now;
+    }
+    if (walker.speed > 0.0 && now - walker.walked < kWalkerMemory) walkers[track.id] = walker;
+  }
+  walkers_ = std::move(walkers);
+}
+
+double SightLaw::speedBesideWalkers(const Eigen::Vector2d& p_odom) const {
+  double bound = limits_.speed;
+  const double a = limits_.acceleration, t = options_.reaction_time;
+  for (const auto& [id, walker] : walkers_) {
+    const Eigen::Vector2d to = p_odom - walker.position;
+    const double aside = std::abs(walker.direction.x() * to.y() - walker.direction.y() * to.x());
+    if (aside > walker.radius + options_.half_width + kWalkerGap) continue;
+    // v t + v^2 / 2a for the robot, and the walker's way until the robot stands.
+    const double free = to.norm() - walker.radius - options_.half_length - walker.speed * t;
+    const double b = t + walker.speed / a;
+    const double speed = free > 0.0 ? a * (std::sqrt(b * b + 2.0 * free / a) - b) : 0.0;
+    bound = std::min(bound, std::max(options_.least_speed, speed));
+  }
+  return bound;
+}
+
 std::vector<double> SightLaw::bounds(const ReferencePath& path, double start_s, double speed) const {
   const double grace = options_.look_ahead_time * std::max(0.0, speed);
   std::vector<double> bounds;
   for (const double s : path.arcLengths()) {
-    bounds.push_back(speedFor(gapAt(path.at(std::max(start_s, s - grace)).position)));
+    const Eigen::Vector2d place = path.at(std::max(start_s, s - grace)).position;
+    bounds.push_back(std::min(speedFor(gapAt(place)), speedBesideWalkers(place)));
   }
   return bounds;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "fresh_pieces.h"
@@ -21,6 +22,8 @@ struct SightLawOptions {
   double look_ahead_time = 0.2;     // [s] until the next plan knows more
   double intruder_length = 1.2;     // [m] longer things in one piece are no robots
   double memory_time = 3.0;         // [s] for which a robot that got out of sight is looked for near walls too
+  double half_length = 0.4;         // [m] of this robot
+  double half_width = 0.2;          // [m]
   double proof_time = 0.25;         // [s] what stays in its place for so long after first sight is no robot on its way
 };
 
@@ -48,6 +51,18 @@ class SightLaw {
   bool possibleAt(const Eigen::Vector2d& p_odom) const;
 
  private:
+  /// Somebody who is not heard and walks: may turn round at any moment, and does not look out.
+  struct Walker {
+    Eigen::Vector2d position = Eigen::Vector2d::Zero();   // [m]
+    Eigen::Vector2d direction = Eigen::Vector2d::Zero();  // [-]
+    double speed = 0.0;                                   // [m/s]
+    double radius = 0.0;                                  // [m]
+    double walked = 0.0;                                  // [s] when it was last seen to move
+  };
+  void followWalkers(const std::vector<TrackedObject>& tracks, const Pose2& pose, double now);
+  /// [m/s] at which the robot can still stop at a place before any walker that turns to it gets there.
+  double speedBesideWalkers(const Eigen::Vector2d& p_odom) const;
+
   using Mask = std::vector<std::uint8_t>;
   using Costs = std::vector<int>;
   /// A grid of the last window in the new one; `fresh` where it was outside.
@@ -77,6 +92,7 @@ class SightLaw {
                const Pose2& pose, double now);
   void addIntruder(const Eigen::Vector2d& there, double reach, double grace, const Mask& prices, Costs& sources) const;
 
+  std::map<int, Walker> walkers_;  // by track
   bool team_known_ = false;
   SightLawOptions options_;
   MotionLimits limits_;
