@@ -20,6 +20,8 @@ constexpr double kSlowSpeed = 0.3;        // [m/s]
 constexpr double kWiderPush = 0.25;       // [m] more, where the usual path led nowhere
 constexpr double kBlockedReach = 1.5;     // [m] moving things nearer than this are what blocks
 constexpr double kRouteStays = 30.0;      // [s]
+constexpr double kSoon = 0.3;             // [s]
+constexpr double kWalksThrough = 1.2;     // [s]
 constexpr double kSightSlack = 0.1;       // [m/s]
 constexpr double kLongestForecast = 0.5;  // [s] of the measured state
 
@@ -67,7 +69,7 @@ void Planner::Pipeline::reset() {
   path_.clear();
   route_ = {};
   desired_.clear();
-  planned_at_ = busy_until_ = squeezed_at_ = -1e9;
+  planned_at_ = busy_until_ = squeezed_at_ = touched_until_ = -1e9;
   arrived_ = false;
 }
 
@@ -83,6 +85,7 @@ PlanResult Planner::Pipeline::plan(const PlanRequest& request) {
   const Margins least{kLeastMargin, 0.3 * options_.margin_per_speed, options_.creep_speed};
   const bool valid = validator_.checkRest(request.committed, start.time, least).good();
 
+  if (isTouched(request)) return standStill(request, start, PlanCode::kBlocked, "somebody walks into the robot");
   const bool busy =
       valid && !request.committed.empty() && request.start_time < std::min(busy_until_, request.committed.endTime());
   if (busy) return keep(code_, "");
@@ -105,6 +108,21 @@ PlanResult Planner::Pipeline::plan(const PlanRequest& request) {
   }
   if (valid && (mayKeep(request) || endsAtGoal(request))) return keep(code_, "");
   return replan(request, start, valid);
+}
+
+/// Who walks into a standing robot does it no harm, but would if it drove on. It may get out of the lidar's sight doing so.
+bool Planner::Pipeline::isTouched(const PlanRequest& request) {
+  const Pose2 T_base_odom = request.odometry.pose.inverse();
+  for (const TrackedObject& track : traffic_.tracks()) {
+    const Eigen::Vector2d soon = track.position + kSoon * track.velocity;
+    const bool walks = track.moving && track.observations >= kNewTrack && track.velocity.norm() > kSlowSpeed;
+    const bool again = request.now < touched_until_ + kWalksThrough && track.observations < kNewTrack;
+    if ((walks && footprint_.contains(T_base_odom * soon, track.radius)) ||
+        (again && footprint_.contains(T_base_odom * track.position, track.radius))) {
+      touched_until_ = request.now + kWalksThrough;
+    }
+  }
+  return request.now < touched_until_;
 }
 
 bool Planner::Pipeline::usable(const PlanRequest& request) const {

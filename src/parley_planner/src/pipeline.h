@@ -61,7 +61,8 @@ class Planner::Pipeline {
   void findWayOut(const TrafficDecision& decision, const PlanRequest& request, const TrajectoryPoint& start);
   PlanResult leave(const PlanRequest& request, const TrajectoryPoint& start, bool committed_valid);
   void standOff(const PlanRequest& request, const TrajectoryPoint& start);
-  PlanResult standAside(const PlanRequest& request, const TrajectoryPoint& start);
+  PlanResult standStill(const PlanRequest& request, const TrajectoryPoint& start, PlanCode code, const std::string& why);
+  bool isTouched(const PlanRequest& request);
   void tell(const RightOfWay& right, const Path& way);
   std::optional<Proposal> bestProposal(const PlanRequest& request, const TrajectoryPoint& start);
   std::optional<Proposal> along(const Path& path, const Attempt& how, const TrajectoryPoint& start) const;
@@ -98,14 +99,15 @@ class Planner::Pipeline {
   PlanCode code_ = PlanCode::kDriving;  // of what was committed last
   Eigen::Vector2d goal_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d local_goal_ = Eigen::Vector2d::Zero();
-  Path desired_;               // [m] where it would have gone at the last plan, if it were alone
-  Route route_;                // the last one there was
-  double routed_at_ = -1e9;    // [s]
-  Path path_;                  // that the last commitment follows
-  double speed_bound_ = 0.0;   // [m/s] by sight, where the robot is
-  double planned_at_ = -1e9;   // [s]
-  double busy_until_ = -1e9;   // [s]
-  double squeezed_at_ = -1e9;  // [s]
+  Path desired_;                 // [m] where it would have gone at the last plan, if it were alone
+  Route route_;                  // the last one there was
+  double routed_at_ = -1e9;      // [s]
+  Path path_;                    // that the last commitment follows
+  double speed_bound_ = 0.0;     // [m/s] by sight, where the robot is
+  double planned_at_ = -1e9;     // [s]
+  double busy_until_ = -1e9;     // [s]
+  double touched_until_ = -1e9;  // [s]
+  double squeezed_at_ = -1e9;    // [s]
   bool arrived_ = false;
 };
 

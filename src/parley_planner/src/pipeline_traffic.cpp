@@ -191,7 +191,7 @@ PlanResult Planner::Pipeline::makeRoom(const TrafficDecision& decision, const Pl
       return commit(*proposal, PlanCode::kEscaping);
     }
     tell(decision.right, {start.pose.position()});
-    return standAside(request, start);
+    return standStill(request, start, PlanCode::kYielding, "another goes first");
   }
   escape_.reset();
   const Surroundings shape = surroundings_.with([&](const Eigen::Vector2d& p) {
@@ -208,7 +208,7 @@ PlanResult Planner::Pipeline::makeRoom(const TrafficDecision& decision, const Pl
     return commit(*proposal, PlanCode::kYielding);
   }
   tell(decision.right, {start.pose.position()});
-  return standAside(request, start);
+  return standStill(request, start, PlanCode::kYielding, "another goes first");
 }
 
 std::optional<Proposal> Planner::Pipeline::escape(const TrafficDecision& decision, const PlanRequest& request,
@@ -316,15 +316,17 @@ void Planner::Pipeline::standOff(const PlanRequest& request, const TrajectoryPoi
 }
 
 /// Standing, or braking to a stand.
-PlanResult Planner::Pipeline::standAside(const PlanRequest& request, const TrajectoryPoint& start) {
-  if (stands(start.twist) && (request.committed.empty() || stands(request.committed.at(request.start_time).twist))) {
-    PlanResult result = keep(PlanCode::kYielding, "another goes first");
-    const bool still_moves = !request.committed.empty() && request.committed.endTime() > request.start_time;
-    result.keep_committed = !still_moves;
-    if (still_moves) result.trajectory = SampledTrajectory::standing(start.pose, request.start_time);
-    return result;
+PlanResult Planner::Pipeline::standStill(const PlanRequest& request, const TrajectoryPoint& start, PlanCode code,
+                                         const std::string& why) {
+  if (!stands(start.twist) || (!request.committed.empty() && !stands(request.committed.at(request.start_time).twist))) {
+    return brake(request, start, code, why);
   }
-  return brake(request, start, PlanCode::kYielding, "another goes first");
+  PlanResult result = keep(code, why);
+  if (request.committed.empty() || request.committed.endTime() <= request.start_time) return result;
+  result.keep_committed = false;
+  result.trajectory = SampledTrajectory::standing(start.pose, request.start_time);
+  busy_until_ = -1e9;
+  return result;
 }
 
 }  // namespace parley

@@ -355,7 +355,8 @@ void SightLaw::followWalkers(const std::vector<TrackedObject>& tracks, const Pos
     walker.radius = track.radius;
     if (const double speed = track.velocity.norm(); track.moving && speed > kWalking) {
       walker.direction = track.velocity / speed;
-      walker.speed = std::max(speed, now - walker.walked < kWalkerMemory ? walker.speed - kForgetting * (now - walker.walked) : 0.0);
+      walker.speed =
+          std::max(speed, now - walker.walked < kWalkerMemory ? walker.speed - kForgetting * (now - walker.walked) : 0.0);
       walker.walked = now;
     }
     if (walker.speed > 0.0 && now - walker.walked < kWalkerMemory) walkers[track.id] = walker;
