@@ -31,7 +31,7 @@ SightLawOptions sightLaw(const PlannerOptions& options, const Footprint& footpri
   law.intruder_radius = footprint.inscribedRadius();
   law.intruder_clearance = options.sight_clearance;
   law.reaction_time = options.sight_reaction_time;
-  law.contact_distance = 0.25 * (3.0 * footprint.length + footprint.width);  // between end to end and end to side
+  law.contact_distance = footprint.length;  // end to end
   law.half_length = 0.5 * footprint.length;
   law.half_width = 0.5 * footprint.width;
   law.least_speed = options.sight_least_speed;
@@ -69,7 +69,7 @@ void Planner::Pipeline::reset() {
   path_.clear();
   route_ = {};
   desired_.clear();
-  planned_at_ = busy_until_ = squeezed_at_ = touched_until_ = -1e9;
+  planned_at_ = busy_until_ = squeezed_at_ = touched_until_ = desired_at_ = -1e9;
   arrived_ = false;
 }
 
@@ -177,7 +177,7 @@ void Planner::Pipeline::look(const PlanRequest& request, const TrajectoryPoint& 
   speed_bound_ = limits_.speed;
   if (options_.sight_law) {
     sight_law_.setTeamKnown(request.team_known);
-    std::vector<TrackedObject> moving = traffic_.oncoming(desired_, request.now);
+    std::vector<TrackedObject> moving = traffic_.oncoming(expectedWay(request), request.now);
     moving.insert(moving.end(), traffic_.tracks().begin(), traffic_.tracks().end());
     sight_law_.observe(surroundings_, traffic_.scan(), request.T_odom_scan, moving, start.pose, request.now);
     speed_bound_ = std::min(limits_.speed, sight_law_.speedFor(sight_law_.gapAt(start.pose.position())));

@@ -12,6 +12,7 @@ namespace parley {
 namespace {
 
 constexpr double kNearPeer = 10.0;      // [m] a peer further off does not matter
+constexpr double kWishStays = 0.25;       // [s]
 constexpr double kRest = 0.7;           // [s] at its goal before a robot makes room for others
 constexpr double kOut = 0.7;            // [m] from the place where it wanted to go, a robot is out again
 constexpr double kBlockedBreak = 1.0;   // [s]
@@ -100,6 +101,12 @@ Path Planner::Pipeline::desiredWay(const TrajectoryPoint& start) const {
   return wayFrom(way, start.pose.position(), kTellReach);
 }
 
+/// What it wished at the last plan, or the route if there was nobody to wish it for then.
+Path Planner::Pipeline::expectedWay(const PlanRequest& request) const {
+  if (request.now - desired_at_ < kWishStays) return desired_;
+  return wayFrom(route_.points, request.odometry.pose.position(), kTellReach);
+}
+
 /// At the goal, unless somebody needs the place.
 PlanResult Planner::Pipeline::rest(const PlanRequest& request, const TrajectoryPoint& start) {
   watch_.reset();
@@ -126,6 +133,7 @@ std::optional<PlanResult> Planner::Pipeline::makeWay(const PlanRequest& request,
 PlanResult Planner::Pipeline::negotiate(const PlanRequest& request, const TrajectoryPoint& start, bool committed_valid) {
   const Path desired = desiredWay(start);
   desired_ = desired;
+  desired_at_ = request.now;
   const TrafficDecision decision = traffic_.decide(desired, ownRight(request), start.twist.speed, request.now);
   if (watch_.level() > 0 && request.now > passing_off_until_) passing_off_until_ = request.now + kPassingOff;
   tell(decision.right, desired);
