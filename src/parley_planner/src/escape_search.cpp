@@ -26,6 +26,8 @@ constexpr double kKeepBonus = 1.0;       // [m] of way that the last escape poin
 constexpr double kKeepReach = 0.3;       // [m]
 constexpr double kFailedReach = 0.7;     // [m]
 constexpr double kRetreat = 0.5;         // [m] less is not worth it
+constexpr int kLastSteps = 5;            // [-] of the lattice, by which it comes there
+constexpr double kAlong = 0.9;           // [-]
 constexpr double kRim = 0.15;            // [m]
 constexpr double kSidewaysFree = 0.15;   // [m]
 constexpr double kSidewaysSlope = 0.3;   // [-]
@@ -133,6 +135,16 @@ class EscapeSearch {
     return 0.5 * tube.footprint.width + task_.footprint.inscribedRadius() + kStandingGap;
   }
 
+  /// Whether the robot comes there on a line with the tube, so that it is no wider than it must be.
+  bool isAlong(int node, const Eigen::Vector2d& direction) const {
+    int from = node;
+    for (int i = 0; i < kLastSteps && parents_[static_cast<std::size_t>(from)] >= 0; ++i)
+      from = parents_[static_cast<std::size_t>(from)];
+    const Eigen::Vector2d step = position(node) - position(from);
+    if (step.norm() < 1e-6) return std::abs(task_.start.direction().dot(direction)) > kAlong;
+    return std::abs(step.normalized().dot(direction)) > kAlong;
+  }
+
   /// Where the peer's way ends it stands, with any heading.
   double endOf(const PeerTube& tube) const {
     return task_.footprint.circumscribedRadius() + tube.footprint.circumscribedRadius() + kStandingGap;
@@ -146,7 +158,9 @@ class EscapeSearch {
     double score = static_cast<double>(costs_[static_cast<std::size_t>(node)]) + kProgressWeight * (p - task_.goal).norm();
     bool tight = roomAt(node) < task_.footprint.circumscribedRadius() + 0.03;
     for (const PeerTube& tube : task_.first) {
-      const double distance = placeIn(tube, p).distance;
+      const TubePlace place = placeIn(tube, p);
+      const double distance = place.distance;
+      if (distance < clearOf(tube) + turning && !isAlong(node, place.direction)) return std::nullopt;
       if (distance < clearOf(tube) || (tube.way.back() - p).norm() < endOf(tube)) return std::nullopt;
       tight = tight || distance < clearOf(tube) + turning;
     }

@@ -88,7 +88,7 @@ PeerTube tubeOf(const PeerMotion& peer, double now, double margin) {
 
 TubePlace placeIn(const PeerTube& tube, const Eigen::Vector2d& p) {
   const Nearest nearest = nearestOn(tube.way, p);
-  return {nearest.distance, kTubeStep * static_cast<double>(nearest.index)};
+  return {nearest.distance, kTubeStep * static_cast<double>(nearest.index), directionAt(tube.way, nearest.index)};
 }
 
 std::optional<Meeting> meetingOf(const Path& way, const PeerTube& tube, double distance) {

@@ -41,8 +41,9 @@ std::optional<Meeting> meetingOf(const Path& way, const PeerTube& tube, double d
 
 /// Distance of a point from the tube's middle, and how far along it that is.
 struct TubePlace {
-  double distance = 1e3;  // [m]
-  double along = 0.0;     // [m]
+  double distance = 1e3;                                // [m]
+  double along = 0.0;                                   // [m]
+  Eigen::Vector2d direction = Eigen::Vector2d::Zero();  // [-] of the tube there; zero if it is only a place
 };
 TubePlace placeIn(const PeerTube& tube, const Eigen::Vector2d& p);
 

@@ -101,7 +101,7 @@ class Planner::Pipeline {
   Eigen::Vector2d goal_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d local_goal_ = Eigen::Vector2d::Zero();
   Path desired_;                 // [m] where it would have gone at the last plan, if it were alone
-  double desired_at_ = -1e9;  // [s]
+  double desired_at_ = -1e9;     // [s]
   Route route_;                  // the last one there was
   double routed_at_ = -1e9;      // [s]
   Path path_;                    // that the last commitment follows

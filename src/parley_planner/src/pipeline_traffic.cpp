@@ -12,7 +12,7 @@ namespace parley {
 namespace {
 
 constexpr double kNearPeer = 10.0;      // [m] a peer further off does not matter
-constexpr double kWishStays = 0.25;       // [s]
+constexpr double kWishStays = 0.25;     // [s]
 constexpr double kRest = 0.7;           // [s] at its goal before a robot makes room for others
 constexpr double kOut = 0.7;            // [m] from the place where it wanted to go, a robot is out again
 constexpr double kBlockedBreak = 1.0;   // [s]
@@ -123,7 +123,7 @@ PlanResult Planner::Pipeline::rest(const PlanRequest& request, const TrajectoryP
 std::optional<PlanResult> Planner::Pipeline::makeWay(const PlanRequest& request, const TrajectoryPoint& start,
                                                      const Eigen::Vector2d& back_to) {
   if (!options_.conflict_resolution || !isNearPeers(request)) return std::nullopt;
-  const TrafficDecision decision = traffic_.decide({start.pose.position()}, ownRight(request), start.twist.speed, request.now);
+  const TrafficDecision decision = traffic_.decide({start.pose.position()}, ownRight(request), start, request.now);
   if (!decision.in_the_way) return std::nullopt;
   look(request, start);
   local_goal_ = back_to;
@@ -134,7 +134,7 @@ PlanResult Planner::Pipeline::negotiate(const PlanRequest& request, const Trajec
   const Path desired = desiredWay(start);
   desired_ = desired;
   desired_at_ = request.now;
-  const TrafficDecision decision = traffic_.decide(desired, ownRight(request), start.twist.speed, request.now);
+  const TrafficDecision decision = traffic_.decide(desired, ownRight(request), start, request.now);
   if (watch_.level() > 0 && request.now > passing_off_until_) passing_off_until_ = request.now + kPassingOff;
   tell(decision.right, desired);
   if (std::optional<Proposal> proposal = passBy(decision, desired, request, start)) {

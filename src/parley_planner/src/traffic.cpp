@@ -24,6 +24,7 @@ constexpr double kKeepsTo = 0.6;         // [s] for which others surely keep to 
 constexpr double kUsualSpeed = 1.2;      // [m/s] at which robots are taken to get on
 constexpr double kAhead = 1.5;           // [s] by which a robot must be earlier to pass before one that goes first
 constexpr double kPassingGap = 0.12;     // [m] between two that pass each other
+constexpr double kBodyGap = 0.1;         // [m] that a standing robot leaves beside the other
 constexpr double kAside = 0.25;          // [m] more, up to which two that come towards each other mind each other
 
 double clearOf(const Footprint& a, const Footprint& b) { return 0.5 * (a.width + b.width) + kPassingGap; }
@@ -130,23 +131,39 @@ RightOfWay Traffic::rightNow(const RightOfWay& own, double now) const {
   return now < lent_until_ && goesBefore(lent_, own) ? lent_ : own;
 }
 
-TrafficDecision Traffic::decide(const Path& way, const RightOfWay& own, double speed, double now) {
+/// Whether this robot's rectangle leaves the peer too little room.
+bool Traffic::isIn(const PeerTube& tube, const Pose2& pose) const {
+  const double half = 0.5 * tube.footprint.width + kBodyGap;
+  const Pose2 T_base_odom = pose.inverse();
+  return std::any_of(tube.way.begin(), tube.way.end(), [&](const Eigen::Vector2d& p_odom) {
+    const Eigen::Vector2d p = T_base_odom * p_odom;
+    const double dx = std::max(0.0, std::abs(p.x()) - 0.5 * footprint_.length);
+    const double dy = std::max(0.0, std::abs(p.y()) - 0.5 * footprint_.width);
+    return std::hypot(dx, dy) < half;
+  });
+}
+
+TrafficDecision Traffic::decide(const Path& way, const RightOfWay& own, const TrajectoryPoint& state, double now) {
   TrafficDecision decision;
   decision.right = rightNow(own, now);
-  const double pace = std::max(kUsualSpeed, speed);
+  const double pace = std::max(kUsualSpeed, state.twist.speed);
   for (const PeerTube& tube : tubes_) {
     const double clear = clearOf(footprint_, tube.footprint);
     if (const auto near = meetingOf(way, tube, clear + kAside); near && near->head_on) decision.opposite.push_back(tube);
     if (!goesBefore(tube.right, decision.right)) continue;
     const auto meeting = meetingOf(way, tube, clear);
     // Who has nothing to do any more does not go in front of others either.
-    if (!meeting || (!meeting->against && own.priority > 0.0)) continue;
+    const bool is_in = isIn(tube, state.pose);
+    if (!meeting && !is_in) continue;
+    if (meeting && !meeting->against && own.priority > 0.0) continue;
+    if (is_in) {
+      decision.first.push_back(tube);
+      decision.in_the_way = true;
+      continue;
+    }
     const double entered = meeting->peer_enters / std::max(kUsualSpeed, tube.speed);
     const bool first_there = meeting->enters > 0.0 && !meeting->head_on && meeting->leaves / pace + kAhead < entered;
-    if (first_there) continue;
-    decision.first.push_back(tube);
-    const double corner = footprint_.circumscribedRadius() + 0.5 * tube.footprint.width;
-    if (placeIn(tube, way.front()).distance < std::max(clear, corner)) decision.in_the_way = true;
+    if (!first_there) decision.first.push_back(tube);
   }
   if (!decision.in_the_way) return decision;
   for (const PeerTube& tube : decision.first) {

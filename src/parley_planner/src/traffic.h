@@ -50,9 +50,10 @@ class Traffic {
   bool isShutIn(double now, const Eigen::Vector2d& here) const;
 
   /// `way`: where this robot would go if it were alone, from where it is. `own`: its right of way when nobody pushes it.
-  TrafficDecision decide(const Path& way, const RightOfWay& own, double speed, double now);
+  TrafficDecision decide(const Path& way, const RightOfWay& own, const TrajectoryPoint& state, double now);
 
  private:
+  bool isIn(const PeerTube& tube, const Pose2& pose) const;
   bool contradicted(const PeerMotion& peer, const PlanRequest& request) const;
   void withoutPeers(const PlanRequest& request);
   RightOfWay rightNow(const RightOfWay& own, double now) const;

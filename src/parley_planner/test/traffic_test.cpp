@@ -36,6 +36,13 @@ class TrafficTest : public testing::Test {
 
   static Path way(double x1, double y1, double x2, double y2) { return resampled({{x1, y1}, {x2, y2}}, kTubeStep); }
 
+  /// On its way, with its heading along it.
+  static TrafficDecision decide(Traffic* traffic, const Path& way, const RightOfWay& own, double speed, double now) {
+    const Eigen::Vector2d step = way.back() - way.front();
+    return traffic->decide(way, own, {now, {way.front().x(), way.front().y(), std::atan2(step.y(), step.x())}, {speed, 0.0}},
+                           now);
+  }
+
   PlannerOptions options_;
   LocalMap map_ = seenMap(World(10, 10, false));
   ObstacleScan scan_;
@@ -73,8 +80,8 @@ TEST_F(TrafficTest, OfTwoWhoseWaysMeetExactlyOneMakesRoom) {
     Traffic a(options_, robotFootprint(), robotLimits()), b(options_, robotFootprint(), robotLimits());
     observe(&a, {peer(2, {b1.x(), b1.y(), 0.0}, b2)});
     observe(&b, {peer(1, {a1.x(), a1.y(), 0.0}, a2)});
-    const TrafficDecision of_a = a.decide(way(a1.x(), a1.y(), a2.x(), a2.y()), {1.0, 1, 0}, 0.0, 0.0);
-    const TrafficDecision of_b = b.decide(way(b1.x(), b1.y(), b2.x(), b2.y()), {1.0, 2, 0}, 0.0, 0.0);
+    const TrafficDecision of_a = decide(&a, way(a1.x(), a1.y(), a2.x(), a2.y()), {1.0, 1, 0}, 0.0, 0.0);
+    const TrafficDecision of_b = decide(&b, way(b1.x(), b1.y(), b2.x(), b2.y()), {1.0, 2, 0}, 0.0, 0.0);
     EXPECT_TRUE(of_b.first.empty()) << "the second goes first";
     met += static_cast<int>(of_a.first.size());
   }
@@ -83,26 +90,33 @@ TEST_F(TrafficTest, OfTwoWhoseWaysMeetExactlyOneMakesRoom) {
 
 TEST_F(TrafficTest, WhoFollowsOrPassesEarlyDoesNotWait) {
   observe(&traffic_, {peer(9, {5.0, 5.0, 0.0}, {9.0, 5.0})});
-  EXPECT_TRUE(traffic_.decide(way(2.0, 5.0, 9.0, 5.0), {1.0, 1, 0}, 1.0, 0.0).first.empty());
+  EXPECT_TRUE(decide(&traffic_, way(2.0, 5.0, 9.0, 5.0), {1.0, 1, 0}, 1.0, 0.0).first.empty());
   observe(&traffic_, {peer(9, {1.0, 8.0, 0.0}, {9.0, 8.0})});
-  EXPECT_TRUE(traffic_.decide(way(7.5, 7.0, 7.5, 9.5), {1.0, 1, 0}, 1.0, 0.0).first.empty());
-  EXPECT_EQ(traffic_.decide(way(3.0, 4.0, 3.0, 9.5), {1.0, 1, 0}, 1.0, 0.0).first.size(), 1U);
+  EXPECT_TRUE(decide(&traffic_, way(7.5, 7.0, 7.5, 9.5), {1.0, 1, 0}, 1.0, 0.0).first.empty());
+  EXPECT_EQ(decide(&traffic_, way(3.0, 4.0, 3.0, 9.5), {1.0, 1, 0}, 1.0, 0.0).first.size(), 1U);
   // Who has arrived before goes in front of nobody.
   observe(&traffic_, {peer(9, {2.0, 5.0, 0.0}, {9.0, 5.0})});
-  EXPECT_TRUE(traffic_.decide(way(4.0, 5.0, 8.0, 5.0), {1.0, 1, 0}, 1.0, 0.0).first.empty());
-  EXPECT_EQ(traffic_.decide(way(4.0, 5.0, 8.0, 5.0), {0.0, 1, 0}, 1.0, 0.0).first.size(), 1U);
+  EXPECT_TRUE(decide(&traffic_, way(4.0, 5.0, 8.0, 5.0), {1.0, 1, 0}, 1.0, 0.0).first.empty());
+  EXPECT_EQ(decide(&traffic_, way(4.0, 5.0, 8.0, 5.0), {0.0, 1, 0}, 1.0, 0.0).first.size(), 1U);
+}
+
+TEST_F(TrafficTest, WhoStandsAskewIsInTheWayOfWhomItsMiddleIsNot) {
+  observe(&traffic_, {peer(9, {2.0, 5.0, 0.0}, {9.0, 5.0})});
+  const TrajectoryPoint along{0.0, {5.0, 5.55, 0.0}, {}}, across{0.0, {5.0, 5.55, 1.57}, {}};
+  EXPECT_FALSE(traffic_.decide({{5.0, 5.55}}, {1.0, 1, 0}, along, 0.0).in_the_way);
+  EXPECT_TRUE(traffic_.decide({{5.0, 5.55}}, {1.0, 1, 0}, across, 0.0).in_the_way);
 }
 
 TEST_F(TrafficTest, WhoHasToLeaveLendsTheRightOfWhoPushes) {
   observe(&traffic_, {peer(9, {2.0, 5.0, 0.0}, {9.0, 5.0}), peer(5, {6.0, 5.0, 0.0}, {6.0, 5.0})});
-  const TrafficDecision decision = traffic_.decide({{4.0, 5.0}}, {1.0, 1, 0}, 0.0, 0.0);
+  const TrafficDecision decision = decide(&traffic_, {{4.0, 5.0}}, {1.0, 1, 0}, 0.0, 0.0);
   EXPECT_TRUE(decision.in_the_way);
   EXPECT_EQ(decision.right.holder, 9U);
   EXPECT_EQ(decision.right.depth, 1);
   // For a while after it was needed, no longer.
   observe(&traffic_, {}, 0.3);
-  EXPECT_EQ(traffic_.decide({{4.0, 5.0}}, {1.0, 1, 0}, 0.0, 0.3).right.holder, 9U);
-  EXPECT_EQ(traffic_.decide({{4.0, 5.0}}, {1.0, 1, 0}, 0.0, 1.0).right.holder, 1U);
+  EXPECT_EQ(decide(&traffic_, {{4.0, 5.0}}, {1.0, 1, 0}, 0.0, 0.3).right.holder, 9U);
+  EXPECT_EQ(decide(&traffic_, {{4.0, 5.0}}, {1.0, 1, 0}, 0.0, 1.0).right.holder, 1U);
 }
 
 TEST_F(TrafficTest, WithNowhereToGoARobotGoesFirstAfterAWhileUntilItIsOut) {
