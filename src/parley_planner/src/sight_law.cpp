@@ -42,6 +42,7 @@ void SightLaw::reset() {
   lost_.clear();
   gaps_.clear();
   dates_.clear();
+  walkers_.clear();
   updated_at_ = -1e9;
 }
 
@@ -223,6 +224,11 @@ void SightLaw::observe(const Surroundings& surroundings, const ObstacleScan& sca
     }
   }
   gaps_ = spread(sources, prices, kFar);
+  if (team_known_) {
+    // What is hidden does not drive at the robot: this one has all of the gap to stop in, not half.
+    const int contact = cost(options_.contact_distance);
+    for (int& gap : gaps_) gap = std::min(2 * kFar, gap + std::max(0, gap - contact));
+  }
   const std::vector<DatedReturn> returns = dated(scan, T_odom_scan, now);
   addSeen(tracks, returns, prices, pose, now);
   updated_at_ = now;
@@ -327,8 +333,7 @@ void SightLaw::addIntruder(const Eigen::Vector2d& there, double reach, double gr
 }
 
 double SightLaw::speedFor(double gap) const {
-  const double free = std::max(0.0, gap - options_.contact_distance) * (team_known_ ? 2.0 : 1.0);
-  // Of two that brake alike each has half the gap; alone, all of it.
+  const double free = std::max(0.0, gap - options_.contact_distance);
   const double a = limits_.acceleration, t = options_.reaction_time;
   return std::max(options_.least_speed, a * (std::sqrt(t * t + free / a) - t));
 }

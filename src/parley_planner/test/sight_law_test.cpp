@@ -51,6 +51,56 @@ TEST_F(SightLawTest, BlindCornerIsSlower) {
   EXPECT_LT(bounds.back(), bounds.front() + 1e-9);  // what is hidden lies ahead
 }
 
+TrackedObject walker(const Eigen::Vector2d& position, const Eigen::Vector2d& velocity) {
+  TrackedObject track;
+  track.id = 1;
+  track.position = position;
+  track.velocity = velocity;
+  track.radius = 0.3;
+  track.observations = 10;
+  track.moving = track.has_moved = true;
+  return track;
+}
+
+TEST_F(SightLawTest, AKnownTeamHidesNobodyButIsMetAsEver) {
+  World world(10, 10, true);
+  world.fill(0, 4.2, 6, 5.8, false);
+  world.fill(4.4, 4.2, 6, 10, false);
+  const Pose2 pose{3.6, 4.8, 0.0};
+  look(world, pose, 0.0);
+  const double unknown = speedAt(pose);
+  law_.reset();
+  law_.setTeamKnown(true);
+  look(world, pose, 0.0);
+  EXPECT_GT(speedAt(pose), unknown + 0.1);
+  law_.reset();
+  look(world, pose, 0.0, {walker({5.4, 4.8}, {-1.0, 0.0})});
+  const double met = speedAt(pose);
+  law_.setTeamKnown(false);
+  law_.reset();
+  look(world, pose, 0.0, {walker({5.4, 4.8}, {-1.0, 0.0})});
+  EXPECT_NEAR(speedAt(pose), met, 1e-9);
+  EXPECT_LT(met, 1.3);
+}
+
+TEST_F(SightLawTest, WhoWalksAheadMayTurnRound) {
+  World world(10, 10, true);
+  world.fill(0.5, 0.5, 9.5, 9.5, false);
+  const ReferencePath path(resampled({{2.0, 5.0}, {8.0, 5.0}}, 0.1));
+  const auto boundBehind = [&](const Eigen::Vector2d& there, const Eigen::Vector2d& velocity) {
+    law_.reset();
+    look(world, {2.0, 5.0, 0.0}, 0.0, {walker(there, velocity)});
+    return law_.bounds(path, 0.0, 1.0).front();
+  };
+  const double v = boundBehind({4.5, 5.0}, {1.2, 0.0});
+  const double t = options_.reaction_time, a = robotLimits().acceleration;
+  // It stands before somebody who turns now, at the same speed, is there.
+  const double needed = v * t + v * v / (2.0 * a) + 1.2 * (t + v / a);
+  EXPECT_NEAR(needed, 2.5 - 0.3 - options_.half_length, 0.01);
+  EXPECT_GT(boundBehind({4.5, 7.0}, {1.2, 0.0}), 1.9);   // walks past
+  EXPECT_GT(boundBehind({1.0, 5.0}, {-1.2, 0.0}), 1.9);  // is behind
+}
+
 TEST_F(SightLawTest, NothingHidesWhereNobodyFits) {
   World world(10, 10, true);
   world.fill(1, 3.5, 5, 6.5, false);
