@@ -2,32 +2,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A scenario through nodelets ends as it does in lockstep, and all nodes live to its end."""
 import json
-import os
-import subprocess
 import sys
-import tempfile
 import unittest
 
-import roslib.packages
 import rosnode
 import rospy
 import rostest
 from geometry_msgs.msg import Twist
+from lockstep import fleet_run
 from std_msgs.msg import String
 
 PATIENCE = 200.0   # [s] of wall time
 AGREEMENT = 0.10   # [-]
 NODES = {'/simulator', '/robot_1/robot'}
-
-
-def fleet_run(scenario, config):
-    """The same in lockstep: its result."""
-    program = roslib.packages.find_node('parley_sim', 'fleet_run')[0]
-    with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, 'result.json')
-        subprocess.run([program, scenario, '--config', config, '--json', path, '--quiet'], check=True)
-        with open(path, encoding='utf-8') as file:
-            return json.load(file)
 
 
 class SimulationTest(unittest.TestCase):

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Two robots that meet in a simulation come to know where the other is, put its frame into tf and draw its map."""
+"""Two robots that meet in a simulation come to know where the other is, put its frame into tf, draw its map, and tell their
+planners what it is about to do."""
 import math
 import sys
 import time
@@ -9,7 +10,7 @@ import unittest
 import rospy
 import rostest
 import tf2_ros
-from parley_msgs.msg import Peer, PeerArray, PeerMaps
+from parley_msgs.msg import Peer, PeerArray, PeerMaps, PeerMotions
 
 PATIENCE = 120.0   # [s] of wall time
 POSITION = 0.3     # [m] how far off a robot may believe another's frame, near where it is
@@ -29,16 +30,24 @@ class TeamTest(unittest.TestCase):
     def setUp(self):
         self.buffer = tf2_ros.Buffer()
         self.listener = tf2_ros.TransformListener(self.buffer)
-        self.peers, self.maps = {}, {}
+        self.peers, self.maps, self.motions = {}, {}, {}
         for robot in ROBOTS:
             rospy.Subscriber(f'/{robot}/peers', PeerArray, lambda message, robot=robot: self.peers.update({robot: message}))
             rospy.Subscriber(f'/{robot}/peer_maps', PeerMaps, lambda message, robot=robot: self.maps.update({robot: message}))
+            rospy.Subscriber(f'/{robot}/peer_motions', PeerMotions,
+                             lambda message, robot=robot: self.motions.update({robot: message}))
 
     def confirmed(self, robot):
         """What a robot knows of the other; None unless confirmed."""
         message = self.peers.get(robot)
         found = [peer for peer in message.peers if peer.name == ROBOTS[robot]] if message else []
         return found[0] if found and found[0].state == Peer.CONFIRMED else None
+
+    def planned(self, robot):
+        """What a robot's planner is told of the other; None if nothing."""
+        message = self.motions.get(robot)
+        found = [peer for peer in message.peers if peer.name == ROBOTS[robot]] if message else []
+        return found[0] if found else None
 
     def wait(self, condition, what):
         end = time.monotonic() + PATIENCE
@@ -60,6 +69,12 @@ class TeamTest(unittest.TestCase):
             where = pose_of(self.buffer.lookup_transform(f'{other}/odom', f'{other}/base_link', rospy.Time(0)))
             error = math.dist(transformed(believed, *where[:2]), transformed(truth, *where[:2]))
             self.assertLess(error, POSITION, (robot, believed, truth))
+        self.wait(lambda: all(self.planned(robot) and self.planned(robot).intent.way for robot in ROBOTS), 'no intent is told')
+        for robot, other in ROBOTS.items():
+            peer = self.planned(robot) or self.fail(f'{robot} has lost {other} again')
+            self.assertEqual(peer.id, self.motions[other].id)
+            self.assertEqual(peer.trajectory[-1].speed, 0.0, 'ends standing')
+            self.assertIn(peer.intent.holder, [message.id for message in self.motions.values()])
         self.wait(lambda: all(robot in self.maps and self.maps[robot].layers for robot in ROBOTS), "peers' maps are not drawn")
 
 

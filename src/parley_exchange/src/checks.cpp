@@ -87,8 +87,8 @@ bool Plausibility::holds(const TrajectoryMessage& trajectory) const {
 }
 
 bool Plausibility::holds(const IntentMessage& intent) const {
-  return intent.priority >= 0.0 && intent.depth >= 0 && intent.depth <= kMaxDepth && !intent.way.empty() &&
-         intent.way.size() <= kMaxWay &&
+  return intent.priority >= 0.0 && std::isfinite(intent.priority) && intent.depth >= 0 && intent.depth <= kMaxDepth &&
+         !intent.way.empty() && intent.way.size() <= kMaxWay &&
          std::all_of(intent.way.begin(), intent.way.end(), [](const Eigen::Vector2d& corner) { return isPlace(corner); });
 }
 

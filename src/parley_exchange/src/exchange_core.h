@@ -49,7 +49,7 @@ class Exchange::Core {
   DriveState state = DriveState::kStopped;
   DriveState trajectory_state = DriveState::kStopped;
   Pace pace;
-  std::optional<IntentMessage> intent;  // goes with each trajectory
+  std::optional<IntentMessage> intent;    // goes with trajectories
   std::vector<ObservationMessage> scans;  // the newest first
   double scans_at = -1e9;                 // [s] when they had their ages
 

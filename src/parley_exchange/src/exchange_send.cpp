@@ -52,9 +52,10 @@ PacketContent Exchange::Core::compose(const Agenda& agenda, double budget, Agend
     content.trajectory = trajectoryMessage(pace.trajectory(), trajectory_state, now);
     done.trajectory = fits(content, budget);
     if (!done.trajectory) content.trajectory.reset();
-    if (done.trajectory && intent) {
+    if (done.trajectory && agenda.intent && intent) {
       content.intent = intent;
-      if (!fits(content, budget)) content.intent.reset();
+      done.intent = fits(content, budget);
+      if (!done.intent) content.intent.reset();
     }
   }
   if (agenda.conflicts) {

@@ -15,6 +15,8 @@ constexpr double kTogether = 0.4;          // [-] what is due within this part o
 constexpr double kStep = 0.25;             // [s] of trajectories on the air, longer for very long ones
 constexpr double kYawTolerance = 0.1;      // [rad]
 constexpr double kWayTolerance = 1.0;      // [m]
+constexpr double kIntentInterval = 0.5;    // [s] at which the same intent is told again with a trajectory,
+constexpr int kIntentSends = 3;            // [-] after a change of right of way so often with the next one
 constexpr double kSlack = 1e-6;            // [s]
 
 /// Whether something that is due every `period` seconds is due now, or soon enough to go with something else.
@@ -24,7 +26,11 @@ bool isDue(double last, double period, double now, bool early) {
 
 }  // namespace
 
-void Pace::intentIs(const IntentMessage& intent) { intent_ = intent; }
+void Pace::intentIs(const IntentMessage& intent) {
+  const IntentMessage &a = intent, &b = intent_;
+  if (a.holder != b.holder || a.depth != b.depth || a.priority != b.priority) intent_sends_ = kIntentSends;
+  intent_ = intent;
+}
 
 bool Pace::intentChanged() const {
   const IntentMessage &a = intent_, &b = sent_intent_;
@@ -66,8 +72,10 @@ Agenda Pace::agenda(double now, double beacon_rate) const {
   agenda.beacon = isDue(beacon_time_, beacon_period, now, false);
   agenda.conflicts = conflict_sends_ > 0 && isDue(conflict_time_, kConflictInterval, now, false);
   const bool may = has_trajectory && isDue(trajectory_time_, 1.0 / options_.trajectory_rate_max, now, false);
-  agenda.trajectory = may && (isDue(trajectory_time_, 1.0 / options_.trajectory_rate_min, now, false) || trajectoryChanged(now) ||
-                              intentChanged());
+  const bool changed = intentChanged() || trajectoryChanged(now);
+  agenda.trajectory = may && (changed || isDue(trajectory_time_, 1.0 / options_.trajectory_rate_min, now, false));
+  agenda.intent =
+      !intent_.way.empty() && (intentChanged() || intent_sends_ > 0 || isDue(intent_time_, kIntentInterval, now, true));
   if (agenda.empty()) return agenda;
   agenda.trajectory = agenda.trajectory || (may && isDue(trajectory_time_, 1.0 / options_.trajectory_rate_min, now, true));
   agenda.beacon = agenda.beacon || isDue(beacon_time_, beacon_period, now, true);
@@ -80,7 +88,11 @@ void Pace::sent(const Agenda& done, double now) {
   if (done.trajectory) {
     trajectory_time_ = now;
     sent_trajectory_ = trajectory_;
+  }
+  if (done.intent) {
+    intent_time_ = now;
     sent_intent_ = intent_;
+    intent_sends_ = std::max(0, intent_sends_ - 1);
   }
   if (done.conflicts) {
     conflict_time_ = now;

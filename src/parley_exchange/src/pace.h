@@ -12,6 +12,7 @@ namespace parley {
 /// What a packet should hold now. Records and observations ride with the rest.
 struct Agenda {
   bool trajectory = false;
+  bool intent = false;  // with a trajectory
   bool conflicts = false;
   bool beacon = false;
   bool full_beacon = false;  // with coverage, not only the state
@@ -48,7 +49,9 @@ class Pace {
   IntentMessage intent_, sent_intent_;
   std::vector<Conflict> conflicts_;
   int conflict_sends_ = 0;         // [-] left to be sent soon
-  double trajectory_time_ = -1e9;  // [s] when it was last sent
+  int intent_sends_ = 0;           // [-] left with the next trajectories
+  double intent_time_ = -1e9;      // [s] when it was last sent
+  double trajectory_time_ = -1e9;  // [s] the same
   double conflict_time_ = -1e9;    // [s]
   double beacon_time_ = -1e9;      // [s]
   double full_time_ = -1e9;        // [s]

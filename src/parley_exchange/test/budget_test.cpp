@@ -49,13 +49,11 @@ class Tour {
     const double all = duration * static_cast<double>(robots_.size());
     const auto each = [all](std::size_t bytes) { return static_cast<double>(bytes) / all; };
     std::printf(
-        "%s: %.0f byte/s a robot in %.1f packets/s: trajectory %.0f, beacon %.0f, sightings %.0f, map %.0f, keyframe %.0f, "
-        "frames "
-        "and headers "
-        "%.0f; "
+        "%s: %.0f byte/s a robot in %.1f packets/s: trajectory %.0f, intent %.0f, beacon %.0f, sightings %.0f, map %.0f, "
+        "keyframe %.0f, frames and headers %.0f; "
         "%.0f %% of contours shared, %.0f %% of the records that came were new\n",
-        name, rate(duration), packets / all, each(sum.trajectory), each(sum.beacon), each(sum.observation), each(sum.map),
-        each(sum.keyframe), 61.0 * packets / all, 100.0 * shared(), 100.0 * fresh / received);
+        name, rate(duration), packets / all, each(sum.trajectory), each(sum.conflict), each(sum.beacon), each(sum.observation),
+        each(sum.map), each(sum.keyframe), 61.0 * packets / all, 100.0 * shared(), 100.0 * fresh / received);
   }
   /// Share of the contours and anchors of all robots that each of them holds. [-]
   double shared() {
@@ -128,6 +126,11 @@ class Tour {
       pose = integrateTwist(pose, k < 25 ? 1.0 : 0.2, turn, 0.1);
     }
     team[i].setTrajectory(SampledTrajectory(points), DriveState::kDriving);
+    // Eight metres ahead with a corner every two, and now and then by another's right.
+    const Eigen::Vector2d here = robots_[i].pose.position();
+    IntentMessage intent{1.0, team[i].id() + (std::fmod(now, 10.0) < 2.0 ? 1 : 0), 0, {here}};
+    for (int k = 1; k <= 4; ++k) intent.way.emplace_back(here + Eigen::Vector2d(2.0 * k, 0.5 * (k % 2)));
+    team[i].setIntent(intent);
   }
 
   /// Whoever is within the lidar's 4 m, and now and then a thing that is no robot.
@@ -223,6 +226,7 @@ TEST(Budget, holdsWhateverIsAskedFor) {
     const double now = team.timeOf(i);
     team[i].setOdometry(standing({std::fmod(x, 900.0), 0.0, 0.0}, now), DriveState::kDriving);
     team[i].setTrajectory(SampledTrajectory::standing({x, 0.0, 0.0}, now), DriveState::kDriving);
+    team[i].setIntent({random.real(0.0, 9.0), random.word(), 0, std::vector<Eigen::Vector2d>(15, {x, 300.0 - x})});
     team[i].setConflicts(std::vector<Conflict>(static_cast<std::size_t>(random.whole(0, 7))));
     team[i].setObservations(std::vector<ObservationMessage>(4, {0.0, {}, std::vector<Observation>(8, {1.0, 0.0, 0.5})}), now);
     team[i].publishKeyframe(random.bytes(250), {}, now, now);

@@ -113,6 +113,9 @@ TEST(Packet, whatIsSentPassesTheChecks) {
     if (content.trajectory) {
       EXPECT_TRUE(plausible.holds(*content.trajectory)) << seed;
     }
+    if (content.intent) {
+      EXPECT_TRUE(plausible.holds(*content.intent)) << seed;
+    }
     for (const ObservationMessage& scan : content.observations) EXPECT_TRUE(plausible.holds(scan)) << seed;
     for (const RecordGroup& group : content.records) {
       for (const Record& record : group.records) EXPECT_TRUE(plausible.holds(record)) << seed << "\n" << describe(content);
@@ -203,6 +206,48 @@ TEST(Trajectory, comesBackWithinACentimetre) {
       EXPECT_LT(std::abs(angleBetween(decoded->poses[i].yaw, message.poses[i].yaw)), 0.001);
     }
   }
+}
+
+TEST(Intent, comesBackWithinHalfAStep) {
+  RandomContent random(9);
+  for (int run = 0; run < 200; ++run) {
+    const IntentMessage message = random.intent();
+    BitWriter writer;
+    encode(writer, message);
+    const auto decoded = decodeIntent(BitReader(writer.data()));
+    ASSERT_TRUE(decoded);
+    EXPECT_NEAR(decoded->priority, message.priority, 0.051);
+    EXPECT_EQ(decoded->holder, message.holder);
+    EXPECT_EQ(decoded->depth, message.depth);
+    ASSERT_EQ(decoded->way.size(), message.way.size());
+    for (std::size_t i = 0; i < message.way.size(); ++i) {
+      EXPECT_LT((decoded->way[i] - message.way[i]).cwiseAbs().maxCoeff(), 0.0251) << "corners do not add up their rounding";
+    }
+  }
+}
+
+TEST(Intent, withoutAWayOrOutOfTheWorldItIsMalformed) {
+  const auto encoded = [](int corners, std::int32_t step) {
+    BitWriter writer;
+    writer.bits(0, 12 + 32 + 4);
+    writer.bits(static_cast<std::uint64_t>(corners), 4);
+    writer.bits(7, 3);
+    writer.bits(0, 36);
+    for (int i = 1; i < corners; ++i) {
+      writer.signedGolomb(step, 7);
+      writer.signedGolomb(0, 7);
+    }
+    return writer.data();
+  };
+  EXPECT_FALSE(decodeIntent(BitReader(encoded(0, 0))));
+  EXPECT_TRUE(decodeIntent(BitReader(encoded(15, 9362))));
+  EXPECT_TRUE(decodeIntent(BitReader(encoded(2, -131071))));
+  EXPECT_FALSE(decodeIntent(BitReader(encoded(2, 131072))));
+  EXPECT_FALSE(decodeIntent(BitReader(encoded(15, -9363))));
+  EXPECT_FALSE(decodeIntent(BitReader(encoded(15, 1 << 29)))) << "sums beyond 32 bits";
+  Bytes cut = encoded(3, 40);
+  cut.resize(cut.size() - 2);
+  EXPECT_FALSE(decodeIntent(BitReader(cut)));
 }
 
 TEST(Edge, covarianceStaysPositiveDefiniteAndNeverShrinks) {

@@ -6,6 +6,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "parley_exchange/packet_codec.h"
 #include "team.h"
 
 namespace parley {
@@ -208,6 +209,64 @@ TEST(Exchange, scansAreToldAgainWhereMuchIsLost) {
   EXPECT_LT(known_bytes, 120.0);
 }
 
+TEST(Exchange, anIntentIsHeardAndGoesOutAgainWhenRightOfWayChanges) {
+  Team team = standingTeam(2);
+  team.connectAll();
+  team.run(1.0);
+  EXPECT_FALSE(team[1].intentOf(team[0].id())) << "nothing said";
+  IntentMessage intent{1.0, team[0].id(), 0, {{0.0, 0.0}, {3.0, 0.02}, {3.0, -40.0}}};
+  EXPECT_TRUE(team[0].setIntent(intent));
+  team.run(1.0);
+  EXPECT_FALSE(team[1].intentOf(team[0].id())) << "it goes with a trajectory, and there is none";
+  const auto still = [&](std::size_t i) {
+    team[i].setTrajectory(SampledTrajectory::standing({}, team.timeOf(i)), DriveState::kWaiting);
+  };
+  team.run(0.15, still);
+  auto heard = team[1].intentOf(team[0].id());
+  ASSERT_TRUE(heard);
+  EXPECT_EQ(heard->intent.holder, team[0].id());
+  EXPECT_EQ(heard->intent.depth, 0);
+  ASSERT_EQ(heard->intent.way.size(), 3U);
+  EXPECT_NEAR(heard->intent.way[2].y(), -40.0, 0.026);
+  EXPECT_GT(heard->received, team.timeOf(1) - 0.16);
+  // The same intent waits for the next trajectory, once a second; another's right of way does not.
+  for (const int depth : {1, 2, 1}) {
+    team.run(0.3, still);
+    intent.depth = depth;
+    intent.holder = team[1].id();
+    team[0].setIntent(intent);
+    team.run(0.1, still);
+    heard = team[1].intentOf(team[0].id());
+    EXPECT_EQ(heard->intent.depth, depth);
+    EXPECT_EQ(heard->intent.holder, team[1].id());
+  }
+  EXPECT_FALSE(team[1].intentOf(99));
+  EXPECT_FALSE(team[0].intentOf(team[1].id()));
+}
+
+TEST(Exchange, anIntentThatStaysIsToldTwiceASecondAndOneThatChangedThreeTimesAtOnce) {
+  Team team = standingTeam(1);
+  IntentMessage intent{1.0, team[0].id(), 0, {{0.0, 0.0}, {8.0, 0.0}}};
+  double x = 0.0;
+  const auto bytes = [&](double duration) {
+    const std::size_t before = team[0].counters().sections_sent.conflict;
+    team.run(duration, [&](std::size_t) {
+      x += 0.1;
+      team[0].setIntent(intent);
+      team[0].setTrajectory(SampledTrajectory::standing({x, 0.0, 0.0}, team.timeOf(0)), DriveState::kDriving);
+    });
+    return static_cast<double>(team[0].counters().sections_sent.conflict - before);
+  };
+  bytes(2.0);
+  PacketContent one;
+  one.intent = intent;
+  const auto size = static_cast<double>(encodePacket(one).size() - 4);
+  EXPECT_NEAR(bytes(10.0) / size, 20.0, 4.0);
+  intent.depth = 1;
+  intent.holder = 5;
+  EXPECT_NEAR(bytes(0.8) / size, 3.0, 0.1) << "with each trajectory";
+}
+
 TEST(Exchange, whatIsNotFiniteIsRefusedAndCounted) {
   Team team = standingTeam(1);
   const double nan = std::nan("");
@@ -218,13 +277,25 @@ TEST(Exchange, whatIsNotFiniteIsRefusedAndCounted) {
   conflict.cost = nan;
   EXPECT_FALSE(exchange.setConflicts({conflict}));
   EXPECT_FALSE(exchange.setConflicts(std::vector<Conflict>(20)));
+  const double infinity = std::numeric_limits<double>::infinity();
+  const std::vector<Eigen::Vector2d> here = {{0.0, 0.0}};
+  EXPECT_FALSE(exchange.setIntent({nan, 1, 0, here}));
+  EXPECT_FALSE(exchange.setIntent({infinity, 1, 0, here}));
+  EXPECT_FALSE(exchange.setIntent({-1.0, 1, 0, here}));
+  EXPECT_FALSE(exchange.setIntent({1.0, 1, -1, here}));
+  EXPECT_FALSE(exchange.setIntent({1.0, 1, 16, here}));
+  EXPECT_FALSE(exchange.setIntent({1.0, 1, 0, {}}));
+  EXPECT_FALSE(exchange.setIntent({1.0, 1, 0, {{0.0, 0.0}, {nan, 0.0}}}));
+  EXPECT_FALSE(exchange.setIntent({1.0, 1, 0, {{0.0, 5000.0}}}));
+  EXPECT_FALSE(exchange.setIntent({1.0, 1, 0, std::vector<Eigen::Vector2d>(16, here[0])}));
+  EXPECT_TRUE(exchange.setIntent({1.0, 1, 15, std::vector<Eigen::Vector2d>(15, here[0])}));
   EXPECT_FALSE(exchange.setObservations({{0.0, {}, {{nan, 0.0, 0.0}}}}, 1.0));
   EXPECT_FALSE(exchange.publishKeyframe(Bytes(1000), {}, 1.0, 1.0));
   EXPECT_FALSE(exchange.setPeerPose(5, PeerPose(), 1.0)) << "no covariance";
   EXPECT_FALSE(exchange.setPeerPose(exchange.id(), confirmedAt(1.0), 1.0));
   EXPECT_FALSE(exchange.moveAnchor(77, {}, 1.0));
   EXPECT_FALSE(exchange.contest({5, 1, 1}, 1.0));
-  EXPECT_EQ(exchange.counters().inputs_refused, 9);
+  EXPECT_EQ(exchange.counters().inputs_refused, 18);
   exchange.publishContours({{1, {{nan, 0.0}, {1.0, 1.0}}, false, false, 0.0}, {2, {{0.0, 0.0}}, false, false, 0.0}}, 1.0);
   EXPECT_EQ(exchange.counters().contours_refused, 2);
   EXPECT_TRUE(exchange.contoursOf(exchange.id()).empty());

@@ -92,6 +92,15 @@ PacketContent sightingsPacket() {
   return content;
 }
 
+PacketContent intentPacket() {
+  PacketContent content;
+  content.stamp = 2;
+  content.trajectory = TrajectoryMessage{DriveState::kEscaping, 0.1, 0.25, {{1.0, 2.0, 0.0}, {1.25, 2.0, 0.0}, {1.5, 2.0, 0.0}}};
+  content.intent =
+      IntentMessage{27.4, robotIdOf("robot_2"), 3, {{1.0, 2.0}, {12.35, 2.0}, {12.3, -7.5}, {-300.0, 250.05}, {-300.0, 250.0}}};
+  return content;
+}
+
 PacketContent recordsPacket() {
   PacketContent content;
   content.stamp = 0xffffffff;
@@ -125,7 +134,7 @@ std::string goldenText() {
          "\n[a trajectory, conflicts, observations]\n" + vectorOf(encodePacket(motionPacket()), 2) +
          "\n[records of each kind]\n" + vectorOf(encodePacket(recordsPacket()), 3) + "\n[sightings of three scans]\n" +
          vectorOf(encodePacket(sightingsPacket()), 4) + "\n[an unknown section and one that is too short]\n" +
-         vectorOf(unknown, 0xfffffffe);
+         vectorOf(unknown, 0xfffffffe) + "\n[a trajectory with an intent]\n" + vectorOf(encodePacket(intentPacket()), 5);
 }
 
 std::string contentOf(const std::string& path) {
@@ -163,7 +172,7 @@ TEST(Golden, theFileHoldsTheVectors) {
 
 TEST(Golden, theDumpToolReadsTheFile) {
   const std::vector<Bytes> frames = readDatagrams(kFile);
-  ASSERT_EQ(frames.size(), 5U);
+  ASSERT_EQ(frames.size(), 6U);
   Sealer sealer(parseTeamKey(kKey));
   for (const Bytes& frame : frames) EXPECT_TRUE(sealer.open(*readHeader(frame), frame));
 }

@@ -8,6 +8,7 @@
 #include "parley_exchange/packet_codec.h"
 #include "parley_exchange/seal.h"
 #include "random_content.h"
+#include "section_codec.h"
 #include "team.h"
 
 namespace parley {
@@ -92,6 +93,8 @@ TEST(Hostile, mutatedPacketsOfAMemberDoNoHarm) {
     for (const PeerState& peer : exchange.peers(now)) {
       const auto trajectory = exchange.trajectoryOf(peer.id, now);
       EXPECT_TRUE(!trajectory || trajectory->trajectory.length() < 1e5);
+      const auto intent = exchange.intentOf(peer.id);
+      EXPECT_TRUE(!intent || (!intent->intent.way.empty() && intent->intent.way.size() <= kMaxWay));
     }
     exchange.edges();
   }
@@ -200,6 +203,10 @@ TEST(Hostile, whatCannotBeTrueIsDroppedAndCounted) {
   EXPECT_EQ(implausibleAfter(content), 1) << "200 m/s";
   content.trajectory = TrajectoryMessage{DriveState::kDriving, 0.0, 0.1, {{0.0, 0.0, 0.0}, {0.0, 0.0, 3.0}}};
   EXPECT_EQ(implausibleAfter(content), 1) << "30 rad/s";
+  content = PacketContent();
+  content.intent = IntentMessage{1.0, 5, 0, {{0.0, 0.0}, {4500.0, 0.0}}};
+  EXPECT_EQ(implausibleAfter(content), 1) << "out of the world";
+  EXPECT_FALSE(exchange.intentOf(robotIdOf("insider")));
   content = PacketContent();
   ContourBody knot;
   knot.closed = true;

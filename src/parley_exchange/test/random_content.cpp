@@ -53,6 +53,19 @@ TrajectoryMessage RandomContent::trajectory() {
   return trajectory;
 }
 
+IntentMessage RandomContent::intent() {
+  IntentMessage intent;
+  intent.priority = real(0.0, 400.0);
+  intent.holder = word();
+  intent.depth = whole(0, 15);
+  Eigen::Vector2d at(real(-500.0, 500.0), real(-500.0, 500.0));
+  for (int i = whole(1, 15); i > 0; --i) {
+    intent.way.push_back(at);
+    at += Eigen::Vector2d(real(-20.0, 20.0), real(-20.0, 20.0));
+  }
+  return intent;
+}
+
 Conflict RandomContent::conflict() {
   Conflict conflict;
   conflict.peer = word();
@@ -181,6 +194,7 @@ PacketContent RandomContent::packet() {
   if (chance(0.3)) content.conflicts.emplace();
   for (int i = content.conflicts ? whole(0, 3) : 0; i > 0; --i) content.conflicts->push_back(conflict());
   if (chance(0.3)) content.observations = observations();
+  if (chance(0.5)) content.intent = intent();
   for (int i = whole(0, 2); i > 0; --i) content.records.push_back(group());
   return content;
 }

@@ -16,6 +16,7 @@ class RandomContent {
   PacketContent packet();
   Beacon beacon();
   TrajectoryMessage trajectory();
+  IntentMessage intent();
   Conflict conflict();
   std::vector<ObservationMessage> observations();
   DigestEntry digestEntry();

@@ -4,6 +4,7 @@
 #include <geometry_msgs/Twist.h>
 #include <parley_msgs/RobotState.h>
 
+#include "parley_nodelets/motion_conversions.h"
 #include "parley_nodelets/report.h"
 #include "parley_nodelets/stage_conversions.h"
 

@@ -20,6 +20,7 @@ PlannerConfig loadPlannerConfig(const ros::NodeHandle& pnh) {
   return config;
 }
 
+constexpr double kOldTeam = 1.0;     // [s] teammates of a message older than this are not counted on
 constexpr double kLookAround = 0.2;  // [-] of the planning period: where no scan comes, the trigger is asked so often
 
 bool isStuck(PlanCode code) { return code == PlanCode::kNoRoute || code == PlanCode::kNoPath || code == PlanCode::kBlocked; }
@@ -52,6 +53,9 @@ PlannerNode::PlannerNode(ros::NodeHandle nh, const ros::NodeHandle& pnh, const s
   feed("route", new_route_, [] {});
   // The map comes last of what a scan brings about: with it, all is there to plan on.
   feed("local_map", new_map_, [this] { worker_.post([this] { step(); }); });
+  // A robot alone has no team stage: nothing is amiss where nobody publishes it.
+  subscribers_.push_back(nh.subscribe<parley_msgs::PeerMotions>(
+      "peer_motions", 1, [this](const parley_msgs::PeerMotionsConstPtr& m) { new_team_.put(m); }));
   inputs_.expect<nav_msgs::Odometry>(odometry_.subscriber());
   diagnostics_.setHardwareID(config_.node.frames.base);
   diagnostics_.add("stage", [this](Report& status) { report(status); });
@@ -73,7 +77,7 @@ void PlannerNode::step() {
   if (odometry.buffer.empty() || !scan_ || !map_ || !goal_->goal() || !trigger_.due(now, map_is_new_)) return;
   map_is_new_ = false;
   const Odometry& present = odometry.buffer.latest();
-  last_plan_ = goal_->update(present) ? arrivedPlan() : plan(now, present);
+  last_plan_ = plan(now, present, goal_->update(present));
   const TimedPlan timed{last_plan_, now, now + config_.node.wiring.plan_delay};
   plan_.offer(timed.result, timed.made_at, timed.start_time);
   publish(timed);
@@ -118,6 +122,7 @@ void PlannerNode::takeInputs(const OdometryBuffer& odometry) {
     }
   }
   takeRoute();
+  takeTeam();
 }
 
 void PlannerNode::takeScan(const OdometryBuffer& odometry) {
@@ -144,11 +149,28 @@ void PlannerNode::takeRoute() {
   }
 }
 
-PlanResult PlannerNode::plan(double now, const Odometry& odometry) {
+void PlannerNode::takeTeam() {
+  const auto message = new_team_.take();
+  if (!message) return;
+  std::optional<TeamMotions> team = fromMessage(*message);
+  if (team && isCurrent(message->header)) {
+    team_ = std::move(*team);
+  } else {
+    ++rejected_;
+  }
+}
+
+PlanResult PlannerNode::plan(double now, const Odometry& odometry, bool at_goal) {
   if (now - map_->stamp > config_.goal.map_timeout) {
     PlanResult result;
-    result.status = {PlanCode::kNoPath, "the local map is too old"};
+    result.status = at_goal ? Status<PlanCode>{PlanCode::kArrived, "at the goal"}
+                            : Status<PlanCode>{PlanCode::kNoPath, "the local map is too old"};
+    result.keep_committed = at_goal;
     return result;
+  }
+  if (now - team_.stamp > kOldTeam) {
+    team_.peers.clear();
+    team_.team_known = false;
   }
   const PlanRequest request{now,
                             now + config_.node.wiring.plan_delay,
@@ -160,7 +182,11 @@ PlanResult PlannerNode::plan(double now, const Odometry& odometry) {
                             route_,
                             *goal_->goal(),
                             goal_->tolerance(),
-                            plan_.trajectory()};
+                            plan_.trajectory(),
+                            team_.id,
+                            team_.peers,
+                            team_.team_known,
+                            at_goal};
   return planner_->plan(request);
 }
 
@@ -206,6 +232,8 @@ void PlannerNode::forget() {
   map_.reset();
   tracks_.clear();
   route_ = {};
+  team_.peers.clear();
+  team_.team_known = false;
 }
 
 void PlannerNode::report(Report& report) const {
@@ -215,6 +243,8 @@ void PlannerNode::report(Report& report) const {
   if (!scan_) report.mergeSummary(Report::WARN, "no obstacle scan");
   if (!map_) report.mergeSummary(Report::WARN, "no local map");
   report.add("trajectories committed", plan_.count());
+  report.add("teammates minded", team_.peers.size());
+  report.add("escape points taken", last_plan_.escapes);
   report.add("goals refused", orders_->refused());
   report.add("messages rejected", rejected_);
   report.add("exceptions", worker_.errors());

@@ -18,11 +18,6 @@ geometry_msgs::Point toPoint(const Eigen::Vector2d& p) {
 
 Eigen::Vector2d fromPoint(const geometry_msgs::Point& point) { return {point.x, point.y}; }
 
-bool isFinite(const parley_msgs::TrajectoryPoint& point) {
-  return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.yaw) && std::isfinite(point.speed) &&
-         std::isfinite(point.turn_rate);
-}
-
 }  // namespace
 
 parley_msgs::ObstacleScan toMessage(const ObstacleScan& scan, const std::string& base_frame) {
@@ -132,43 +127,6 @@ std::optional<RouteToGoal> fromMessage(const parley_msgs::Route& message) {
   return route;
 }
 
-parley_msgs::Trajectory toMessage(const TimedPlan& plan, const std::string& odom_frame) {
-  parley_msgs::Trajectory message;
-  message.header = headerOf(plan.made_at, odom_frame);
-  message.verdict = static_cast<std::uint8_t>(plan.result.status.code);
-  message.text = plan.result.status.text;
-  message.start = toRosTime(plan.start_time);
-  message.keep_committed = plan.result.keep_committed;
-  if (message.keep_committed) return message;
-  for (const TrajectoryPoint& point : plan.result.trajectory.points()) {
-    parley_msgs::TrajectoryPoint& part = message.points.emplace_back();
-    part.stamp = toRosTime(point.time);
-    part.x = point.pose.x;
-    part.y = point.pose.y;
-    part.yaw = point.pose.yaw;
-    part.speed = point.twist.speed;
-    part.turn_rate = point.twist.turn_rate;
-  }
-  return message;
-}
-
-std::optional<TimedPlan> fromMessage(const parley_msgs::Trajectory& message) {
-  if (message.verdict > parley_msgs::Trajectory::WAITING) return std::nullopt;
-  std::vector<TrajectoryPoint> points;
-  for (const parley_msgs::TrajectoryPoint& part : message.points) {
-    const double time = part.stamp.toSec();
-    if (!isFinite(part) || (!points.empty() && time < points.back().time)) return std::nullopt;
-    points.push_back({time, {part.x, part.y, part.yaw}, {part.speed, part.turn_rate}});
-  }
-  TimedPlan plan;
-  plan.made_at = message.header.stamp.toSec();
-  plan.start_time = message.start.toSec();
-  plan.result.status = {static_cast<PlanCode>(message.verdict), message.text};
-  plan.result.keep_committed = message.keep_committed;
-  plan.result.trajectory = SampledTrajectory(std::move(points));
-  return plan;
-}
-
 parley_msgs::RobotState toMessage(const ControlResult& result, double stamp, const std::string& base_frame) {
   parley_msgs::RobotState message;
   message.header = headerOf(stamp, base_frame);
@@ -179,17 +137,6 @@ parley_msgs::RobotState toMessage(const ControlResult& result, double stamp, con
   message.speed = result.twist.speed;
   message.turn_rate = result.twist.turn_rate;
   return message;
-}
-
-nav_msgs::Path toPath(const SampledTrajectory& trajectory, double stamp, const std::string& odom_frame) {
-  nav_msgs::Path path;
-  path.header = headerOf(stamp, odom_frame);
-  for (const TrajectoryPoint& point : trajectory.points()) {
-    geometry_msgs::PoseStamped& pose = path.poses.emplace_back();
-    pose.header = headerOf(point.time, odom_frame);
-    pose.pose = toPose(point.pose);
-  }
-  return path;
 }
 
 }  // namespace parley

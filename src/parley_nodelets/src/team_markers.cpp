@@ -50,6 +50,15 @@ Drawing drawPlans(const std::vector<DrawnPeer>& peers, std::size_t most_points) 
   return drawing;
 }
 
+Drawing drawWays(const std::vector<DrawnPeer>& peers, bool make_room, std::size_t most_points) {
+  const std_msgs::ColorRGBA c = make_room ? colour(0.9F, 0.2F, 0.6F, 1.0F) : colour(0.0F, 0.6F, 0.2F, 1.0F);
+  Drawing drawing(Marker::LINE_LIST, make_room ? "ways of those who make room" : "ways", 0.02, c, most_points);
+  for (const DrawnPeer& peer : peers) {
+    if (peer.goes_first.empty() != make_room) drawing.chain(peer.way_odom, false);
+  }
+  return drawing;
+}
+
 Marker nameOf(const DrawnPeer& peer, int id, const std_msgs::Header& header) {
   Marker marker;
   marker.header = header;
@@ -62,7 +71,15 @@ Marker nameOf(const DrawnPeer& peer, int id, const std_msgs::Header& header) {
   marker.color = colour(0.1F, 0.1F, 0.1F, 1.0F);
   marker.text = peer.name;
   if (peer.state != PoseState::kConfirmed) marker.text += std::string("\n") + toString(peer.state);
+  if (!peer.goes_first.empty()) marker.text += "\nmakes room for " + peer.goes_first;
   return marker;
+}
+
+/// As people call a robot.
+std::string nameOf(const TeamLink& team, RobotId id) {
+  if (id == team.id()) return "this robot";
+  const auto found = team.teammates().find(id);
+  return found != team.teammates().end() && !found->second.name.empty() ? found->second.name : "another";
 }
 
 }  // namespace
@@ -73,7 +90,11 @@ std::vector<DrawnPeer> drawnPeers(const TeamLink& team, double now) {
     const auto found = team.teammates().find(peer.id);
     if (found == team.teammates().end() || found->second.estimate.state == PoseState::kUnknown || !peer.neighbour) continue;
     const Pose2& T = found->second.estimate.T_odom_peerodom.pose;
-    drawn.push_back({found->second.name, found->second.estimate.state, T * peer.odometry.pose, peer.footprint, {}});
+    drawn.push_back({found->second.name, found->second.estimate.state, T * peer.odometry.pose, peer.footprint, {}, {}, ""});
+    if (const std::optional<PeerIntent> told = team.exchange().intentOf(peer.id)) {
+      drawn.back().way_odom = brought(T, told->intent.way);
+      if (told->intent.depth > 0) drawn.back().goes_first = nameOf(team, told->intent.holder);
+    }
     const std::optional<PeerTrajectory> plan = team.exchange().trajectoryOf(peer.id, now);
     if (!plan) continue;
     for (const TrajectoryPoint& point : plan->trajectory.points()) drawn.back().plan_odom.push_back(T * point.pose.position());
@@ -94,6 +115,7 @@ visualization_msgs::MarkerArray teamMarkers(const std::vector<DrawnPeer>& peers,
   for (const bool sure : {true, false}) {
     markers.markers.push_back(drawLayers(layers, sure, most_points).finished(header));
     markers.markers.push_back(drawBodies(peers, sure, most_points).finished(header));
+    markers.markers.push_back(drawWays(peers, sure, most_points).finished(header));
   }
   markers.markers.push_back(drawPlans(peers, most_points).finished(header));
   for (std::size_t i = 0; i < peers.size(); ++i) markers.markers.push_back(nameOf(peers[i], static_cast<int>(i), header));

@@ -7,6 +7,7 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include "parley_exchange/boot_counter.h"
+#include "parley_nodelets/motion_conversions.h"
 #include "parley_nodelets/sensor_conversions.h"
 #include "parley_nodelets/stage_conversions.h"
 #include "parley_nodelets/team_conversions.h"
@@ -16,6 +17,7 @@ namespace parley {
 namespace {
 
 constexpr double kPeriod = 0.02;                  // [s] at which the radio is served, the control period
+constexpr double kMotionsPeriod = 0.1;            // [s] in which the planner is told of the team at least once
 constexpr double kRefutedTold = 5.0;              // [s] for which a refuted outline is part of each message
 constexpr std::size_t kMostMarkerPoints = 40000;  // per marker: what RViz draws without stutter
 
@@ -30,6 +32,7 @@ TeamNode::TeamNode(ros::NodeHandle nh, const ros::NodeHandle& pnh, const std::st
       peers_(nh.advertise<parley_msgs::PeerArray>("peers", 1)),
       peer_maps_(nh.advertise<parley_msgs::PeerMaps>("peer_maps", 1, true)),
       teammates_(nh.advertise<parley_msgs::Teammates>("teammates", 1)),
+      motions_(nh.advertise<parley_msgs::PeerMotions>("peer_motions", 1)),
       markers_(nh.advertise<visualization_msgs::MarkerArray>("team_markers", 1)),
       radio_(nh, config_.team.radio),
       odometry_(nh, config_.node) {
@@ -94,6 +97,8 @@ void TeamNode::step() {
   if (odometry.buffer.empty()) return;
   radio_.send(team_->step(now, odometry.buffer.latest(), plan_.trajectory(), state_), now);
   publishTeammates(now);
+  const double since = now - motions_told_;
+  if (since < 0.0 || since > kMotionsPeriod - 0.5 * kPeriod) publishMotions(now);
 }
 
 void TeamNode::takeInputs() {
@@ -105,6 +110,10 @@ void TeamNode::takeInputs() {
     const std::optional<TimedPlan> plan = fromMessage(*message);
     if (plan && message->header.frame_id == config_.node.frames.odom && continuity_.isCurrent(plan->made_at)) {
       plan_.offer(plan->result, plan->made_at, plan->start_time);
+      const Intent& intent = plan->result.intent;
+      // The planner takes this robot's number from here: until it has, it speaks in nobody's name.
+      const bool has_number = intent.right.depth > 0 || intent.right.holder == team_->id();
+      if (!intent.way.empty() && has_number) team_->setIntent(intent);
     } else {
       ++rejected_;
     }
@@ -125,6 +134,7 @@ void TeamNode::locate() {
   team_->addScan(at_scan->pose, *scan, now);
   team_->locate(now);
   publishPeers(now);
+  publishMotions(now);
 }
 
 void TeamNode::exchangeMaps() {
@@ -165,6 +175,12 @@ void TeamNode::publishTeammates(double now) {
   if (bodies.empty() && !teammates_told_) return;
   teammates_told_ = !bodies.empty();
   teammates_.publish(boost::make_shared<parley_msgs::Teammates>(toMessage(bodies, now, config_.node.frames.odom)));
+}
+
+void TeamNode::publishMotions(double now) {
+  motions_told_ = now;
+  motions_.publish(boost::make_shared<parley_msgs::PeerMotions>(
+      toMessage(motionsOf(*team_, now), team_->teammates(), config_.node.frames.odom)));
 }
 
 void TeamNode::publishPeers(double now) {

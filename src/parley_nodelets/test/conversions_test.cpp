@@ -233,36 +233,6 @@ TEST(RouteMessage, ComesBackAndRefusesUnknownVerdicts) {
   EXPECT_FALSE(fromMessage(message));
 }
 
-TEST(TrajectoryMessage, ComesBack) {
-  TimedPlan plan;
-  plan.made_at = 10.0;
-  plan.start_time = 10.05;
-  plan.result.status = {PlanCode::kBlocked, "a box"};
-  plan.result.trajectory = SampledTrajectory({{10.05, {1.0, 2.0, 0.5}, {0.3, 0.1}}, {11.0, {1.5, 2.0, 0.6}, {}}});
-  const auto back = fromMessage(toMessage(plan, "odom"));
-  ASSERT_TRUE(back);
-  EXPECT_NEAR(back->start_time, 10.05, 1e-9);
-  EXPECT_EQ(back->result.status.code, PlanCode::kBlocked);
-  EXPECT_EQ(back->result.status.text, "a box");
-  ASSERT_EQ(back->result.trajectory.points().size(), 2U);
-  EXPECT_TRUE(back->result.trajectory.points()[0].pose == plan.result.trajectory.points()[0].pose);
-  EXPECT_EQ(back->result.trajectory.points()[0].twist.turn_rate, 0.1);
-}
-
-TEST(TrajectoryMessage, RefusesTimeThatRunsBackAndWhatIsNotFinite) {
-  TimedPlan plan;
-  plan.result.trajectory = SampledTrajectory({{1.0, {}, {}}, {2.0, {}, {}}});
-  auto message = toMessage(plan, "odom");
-  std::swap(message.points[0], message.points[1]);
-  EXPECT_FALSE(fromMessage(message));
-  message = toMessage(plan, "odom");
-  message.points[1].yaw = kNan;
-  EXPECT_FALSE(fromMessage(message));
-  message = toMessage(plan, "odom");
-  message.verdict = 77;
-  EXPECT_FALSE(fromMessage(message));
-}
-
 TEST(RobotStateMessage, ConstantsAreTheNamesOfTheStates) {
   ControlResult result;
   result.state = DriveState::kNoLidar;

@@ -4,6 +4,7 @@
 #include <geometry_msgs/Twist.h>
 #include <move_base_msgs/MoveBaseAction.h>
 #include <parley_msgs/Goal.h>
+#include <parley_msgs/PeerMotions.h>
 #include <parley_msgs/RobotState.h>
 #include <parley_msgs/Trajectory.h>
 
@@ -40,6 +41,29 @@ class DrivingTest : public test::NodeFixture {
     return message;
   }
 
+  /// Bob, who would go through where this robot stands, and before it; or through the wall, if he cannot be.
+  parley_msgs::PeerMotions bob(double width) const {
+    parley_msgs::PeerMotions message;
+    message.header = headerOf(time_, "odom");
+    message.id = 7;
+    message.peers.resize(1);
+    parley_msgs::PeerMotion& peer = message.peers[0];
+    peer.id = peer.intent.holder = 9;
+    peer.length = 0.8;
+    peer.width = width;
+    peer.heard = ros::Time(time_);
+    peer.trajectory.resize(1);
+    peer.trajectory[0].stamp = ros::Time(time_);
+    peer.trajectory[0].x = 2.0;
+    peer.trajectory[0].yaw = kPi;
+    peer.intent.priority = 1.0;
+    peer.intent.way.resize(2);
+    peer.intent.way[0].x = 2.0;
+    peer.intent.way[1].x = -3.0;
+    return message;
+  }
+
+  bool hasVerdict(std::uint8_t verdict) const { return trajectory_.count() > 0 && trajectory_.last()->verdict == verdict; }
   bool drives() const { return twist_.count() > 0 && twist_.last()->linear.x > 0.05; }
 };
 
@@ -102,6 +126,52 @@ TEST_F(DrivingTest, ActionEndsAsItSays) {
   goals_.publish(pose(2.0, 1.0, "odom"));
   ASSERT_TRUE(passUntil([&] { return client.getState().isDone() && goal_.last()->position.y == 1.0; }));
   EXPECT_EQ(client.getState(), actionlib::SimpleClientGoalState::PREEMPTED);
+}
+
+TEST_F(DrivingTest, PlannerMakesRoomForTeammatesAndSaysSo) {
+  const PlannerNode node(nh_, pnh("planner"), "planner");
+  ros::Publisher team = nh_.advertise<parley_msgs::PeerMotions>("peer_motions", 1);
+  ActionClient client(nh_, "move_base", false);
+  ASSERT_TRUE(passUntil([&client] { return client.isServerConnected(); }));
+  move_base_msgs::MoveBaseGoal goal;
+  goal.target_pose = pose(0.1, 0.0, "odom");
+  client.sendGoal(goal);
+  parley_msgs::PeerMotions alone;
+  alone.id = 7;
+  ASSERT_TRUE(passUntil([&] {
+    alone.header = headerOf(time_, "odom");
+    team.publish(alone);
+    return hasVerdict(parley_msgs::Trajectory::ARRIVED) && trajectory_.last()->intent.holder == 7;
+  })) << "speaks under its number";
+  EXPECT_EQ(trajectory_.last()->intent.depth, 0);
+  EXPECT_EQ(trajectory_.last()->intent.way.size(), 1U) << "stays where it is";
+
+  ASSERT_TRUE(passUntil([&] {
+    team.publish(bob(0.4));
+    return hasVerdict(parley_msgs::Trajectory::ESCAPING);
+  })) << trajectory_.last()->text;
+  EXPECT_EQ(trajectory_.last()->intent.holder, 9U);
+  EXPECT_EQ(trajectory_.last()->intent.depth, 1);
+  EXPECT_GT(trajectory_.last()->intent.way.size(), 1U);
+  EXPECT_EQ(client.getState(), actionlib::SimpleClientGoalState::SUCCEEDED) << "making room is no failure";
+
+  EXPECT_TRUE(passUntil([&] { return hasVerdict(parley_msgs::Trajectory::ARRIVED); })) << "who is silent is not minded";
+}
+
+TEST_F(DrivingTest, PlannerRefusesTeammatesThatCannotBe) {
+  const PlannerNode node(nh_, pnh("planner"), "planner");
+  ros::Publisher team = nh_.advertise<parley_msgs::PeerMotions>("peer_motions", 10);
+  goals_.publish(pose(0.1, 0.0, "odom"));
+  ASSERT_TRUE(passUntil([this] { return hasVerdict(parley_msgs::Trajectory::ARRIVED); }));
+  for (int i = 0; i < 40; ++i) {
+    parley_msgs::PeerMotions message = bob(i % 4 == 0 ? -0.4 : 0.4);
+    if (i % 4 == 1) message.header.frame_id = "elsewhere";
+    if (i % 4 == 2) message.peers[0].intent.way[1].x = std::nan("");
+    if (i % 4 == 3) message.peers[0].trajectory.clear();
+    team.publish(message);
+    pass();
+    ASSERT_TRUE(hasVerdict(parley_msgs::Trajectory::ARRIVED)) << i << ": " << trajectory_.last()->text;
+  }
 }
 
 TEST_F(DrivingTest, ControlDrivesAndStopsOnEveryWayOut) {

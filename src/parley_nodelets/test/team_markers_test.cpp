@@ -34,8 +34,11 @@ parley_msgs::MapLayer layer(bool obstacle) {
 }
 
 TEST(TeamMarkers, DrawPeersWhereTheyAreBelievedToBe) {
-  const DrawnPeer ann{"ann", PoseState::kConfirmed, {4.0, 2.0, 0.0}, {0.8, 0.4}, {{4.0, 2.0}, {5.0, 2.0}, {6.0, 2.5}}};
-  const DrawnPeer bob{"bob", PoseState::kTentative, {-4.0, 0.0, 0.0}, {0.8, 0.4}, {}};
+  const DrawnPeer ann{
+      "ann", PoseState::kConfirmed, {4.0, 2.0, 0.0}, {0.8, 0.4}, {{4.0, 2.0}, {5.0, 2.0}, {6.0, 2.5}}, {{4.0, 2.0}, {9.0, 2.0}},
+      ""};
+  const DrawnPeer bob{"bob", PoseState::kTentative, {-4.0, 0.0, 0.0}, {0.8, 0.4}, {}, {{-4.0, 0.0}, {-4.0, 1.0}, {0.0, 1.0}},
+                      "ann"};
   const auto markers = teamMarkers({ann, bob}, {{"00000001", layer(true)}}, 2.0, "odom", 100);
   ASSERT_FALSE(markers.markers.empty());
   EXPECT_EQ(markers.markers[0].action, Marker::DELETEALL) << "peers that have gone are drawn no more";
@@ -43,6 +46,9 @@ TEST(TeamMarkers, DrawPeersWhereTheyAreBelievedToBe) {
   for (const geometry_msgs::Point& p : marker(markers, "peers").points) EXPECT_LE(std::hypot(p.x - 4.0, p.y - 2.0), 0.45);
   EXPECT_EQ(marker(markers, "peers in doubt").points.size(), 10U);
   EXPECT_EQ(marker(markers, "plans").points.size(), 4U);
+  EXPECT_EQ(marker(markers, "ways").points.size(), 2U);
+  EXPECT_EQ(marker(markers, "ways of those who make room").points.size(), 4U);
+  EXPECT_LT(marker(markers, "ways").scale.x, marker(markers, "plans").scale.x) << "thinner than what is certain";
   EXPECT_EQ(marker(markers, "maps").points.size(), 4U) << "an open outline";
   EXPECT_EQ(marker(markers, "maps").points[3].x, 12.0);
   EXPECT_EQ(marker(markers, "maps in doubt").action, Marker::DELETE);
@@ -54,7 +60,7 @@ TEST(TeamMarkers, DrawPeersWhereTheyAreBelievedToBe) {
     texts.insert(m.text);
     ids.insert(m.id);
   }
-  EXPECT_EQ(texts, (std::set<std::string>{"ann", "bob\ntentative"}));
+  EXPECT_EQ(texts, (std::set<std::string>{"ann", "bob\ntentative\nmakes room for ann"}));
   EXPECT_EQ(ids.size(), 2U);
 }
 

@@ -2,6 +2,7 @@
 #include <parley_msgs/Packet.h>
 #include <parley_msgs/PeerArray.h>
 #include <parley_msgs/PeerMaps.h>
+#include <parley_msgs/PeerMotions.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -9,6 +10,8 @@
 #include <fstream>
 
 #include "node_fixture.h"
+#include "parley_exchange/packet_codec.h"
+#include "parley_exchange/seal.h"
 #include "parley_exchange/team_key.h"
 #include "parley_nodelets/lidar_node.h"
 #include "parley_nodelets/team_conversions.h"
@@ -69,6 +72,15 @@ class TeamNodeTest : public test::NodeFixture {
                                                [out](const parley_msgs::PacketConstPtr& m) { out.publish(m); });
   }
 
+  /// What a robot last told of where it means to go.
+  std::optional<IntentMessage> lastIntent(const Listener<parley_msgs::Packet>& sent) const {
+    if (sent.count() == 0) return std::nullopt;
+    const Bytes frame(sent.last()->data.begin(), sent.last()->data.end());
+    const auto header = readHeader(frame);
+    const auto plain = header ? Sealer(loadTeamKey(folder_ + "/key")).open(*header, frame) : std::nullopt;
+    return plain ? decodePacket(*plain).intent : std::nullopt;
+  }
+
   static bool knows(const Listener<parley_msgs::PeerArray>& peers, const std::string& name) {
     if (peers.count() == 0 || peers.last()->peers.size() != 1) return false;
     const parley_msgs::Peer& peer = peers.last()->peers[0];
@@ -103,6 +115,54 @@ TEST_F(TeamNodeTest, TwoHearEachOtherByUdpAndBagsCanHoldIt) {
   const TeamNode ann(nh_, pnh("team"), "ann"), bob(bob_nh_, ros::NodeHandle(bob_nh_, "team"), "bob");
   ASSERT_TRUE(passUntil([this] { return knows(ann_peers_, "bob") && knows(bob_peers_, "ann"); }));
   EXPECT_GT(ann_received_.count(), 0);
+}
+
+TEST_F(TeamNodeTest, ThePlannerIsToldOfTheTeamTenTimesASecond) {
+  const TeamNode ann(nh_, pnh("team"), "ann"), bob(bob_nh_, ros::NodeHandle(bob_nh_, "team"), "bob");
+  connect();
+  Listener<parley_msgs::PeerMotions> bobs(bob_nh_, "peer_motions");
+  ASSERT_TRUE(passUntil([&] { return bobs.count() > 0 && knows(bob_peers_, "ann"); }));
+  obstacles_relay_.shutdown();  // nothing is weighed any more: from here on it is by the clock alone
+  bobs.clear();
+  const double before = time_;
+  ASSERT_TRUE(passUntil([&] { return bobs.count() >= 10; }));
+  EXPECT_LT(time_ - before, 1.3);
+  EXPECT_EQ(bobs.last()->header.frame_id, "odom");
+  EXPECT_EQ(bobs.last()->id, robotIdOf("bob"));
+  EXPECT_TRUE(bobs.last()->peers.empty()) << "heard, but not known where";
+  EXPECT_FALSE(bobs.last()->team_known);
+}
+
+TEST_F(TeamNodeTest, WhatThePlannerMeansToDoIsTold) {
+  const TeamNode ann(nh_, pnh("team"), "ann");
+  Listener<parley_msgs::Packet> sent(nh_, "radio/sent");
+  ros::Publisher plans = nh_.advertise<parley_msgs::Trajectory>("trajectory", 1);
+  parley_msgs::Trajectory plan;
+  plan.header.frame_id = "odom";
+  plan.verdict = parley_msgs::Trajectory::YIELDING;
+  plan.keep_committed = true;
+  plan.intent.priority = 1.0;
+  plan.intent.way.resize(2);
+  plan.intent.way[1].x = 4.0;
+  const auto publish = [&] {
+    plan.header.stamp = plan.start = ros::Time(time_);
+    plans.publish(plan);
+  };
+  for (int i = 0; i < 15; ++i) {
+    publish();
+    pass();
+    EXPECT_FALSE(lastIntent(sent)) << "in nobody's name";
+  }
+  plan.intent.holder = robotIdOf("bob");
+  plan.intent.depth = 1;
+  ASSERT_TRUE(passUntil([&] {
+    publish();
+    return lastIntent(sent).has_value();
+  }));
+  EXPECT_EQ(lastIntent(sent)->holder, robotIdOf("bob"));
+  EXPECT_EQ(lastIntent(sent)->depth, 1);
+  ASSERT_EQ(lastIntent(sent)->way.size(), 2U);
+  EXPECT_NEAR(lastIntent(sent)->way[1].x(), 4.0, 0.026);
 }
 
 TEST_F(TeamNodeTest, AnotherKeyIsAnotherTeam) {

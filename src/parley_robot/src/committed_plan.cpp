@@ -24,13 +24,6 @@ DriveState driveStateOf(PlanCode code) {
   return DriveState::kBlocked;
 }
 
-PlanResult arrivedPlan() {
-  PlanResult result;
-  result.status = {PlanCode::kArrived, ""};
-  result.keep_committed = true;
-  return result;
-}
-
 void CommittedPlan::offer(const PlanResult& result, double made_at, double start_time) {
   pending_ = Pending{result, made_at, start_time};
 }

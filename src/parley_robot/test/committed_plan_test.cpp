@@ -72,6 +72,8 @@ TEST(CommittedPlan, EveryPlanCodeHasAState) {
   EXPECT_EQ(driveStateOf(PlanCode::kNoPath), DriveState::kBlocked);
   EXPECT_EQ(driveStateOf(PlanCode::kBlocked), DriveState::kBlocked);
   EXPECT_EQ(driveStateOf(PlanCode::kWaiting), DriveState::kWaiting);
+  EXPECT_EQ(driveStateOf(PlanCode::kYielding), DriveState::kYielding);
+  EXPECT_EQ(driveStateOf(PlanCode::kEscaping), DriveState::kEscaping);
 }
 
 TEST(Periodic, RunsAtItsRateAndDoesNotBurstAfterAPause) {

@@ -19,7 +19,7 @@ std::string describe(const PacketContent& content);
 struct SectionBytes {
   std::size_t beacon = 0;       // [byte] with echoes and digest
   std::size_t trajectory = 0;   // [byte]
-  std::size_t conflict = 0;     // [byte]
+  std::size_t conflict = 0;     // [byte] with intents
   std::size_t observation = 0;  // [byte]
   std::size_t map = 0;          // [byte] contours, anchors, edges, tombstones, contests, endorsements
   std::size_t keyframe = 0;     // [byte]

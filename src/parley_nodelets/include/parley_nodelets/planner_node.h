@@ -4,6 +4,7 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <nav_msgs/OccupancyGrid.h>
 #include <parley_msgs/ObstacleScan.h>
+#include <parley_msgs/PeerMotions.h>
 #include <parley_msgs/Route.h>
 #include <parley_msgs/TrackedObjects.h>
 
@@ -15,6 +16,7 @@
 #include "parley_nodelets/goal_input.h"
 #include "parley_nodelets/input_check.h"
 #include "parley_nodelets/latest.h"
+#include "parley_nodelets/motion_conversions.h"
 #include "parley_nodelets/node_config.h"
 #include "parley_nodelets/odometry_input.h"
 #include "parley_nodelets/stage_conversions.h"
@@ -46,7 +48,8 @@ struct PlannerConfig {
   GoalOptions goal;
 };
 
-/// Planner stage in ROS: goals, `odom`, `obstacles`, `tracks`, `local_map` and `route` become `trajectory` and `goal`.
+/// Planner stage in ROS: goals, `odom`, `obstacles`, `tracks`, `local_map`, `route` and `peer_motions` become `trajectory` and
+/// `goal`.
 class PlannerNode {
  public:
   /// Throws std::invalid_argument with all problems of the parameters.
@@ -59,8 +62,9 @@ class PlannerNode {
   void takeInputs(const OdometryBuffer& odometry);
   void takeScan(const OdometryBuffer& odometry);
   void takeRoute();
+  void takeTeam();
   bool isCurrent(const std_msgs::Header& header) const;
-  PlanResult plan(double now, const Odometry& odometry);
+  PlanResult plan(double now, const Odometry& odometry, bool at_goal);
   void publish(const TimedPlan& plan);
   void publishGoal(double now);
   void answerAction(double now, const Odometry& odometry, const PlanResult& result);
@@ -83,6 +87,7 @@ class PlannerNode {
   bool map_is_new_ = false;  // nothing has been planned on it yet
   std::vector<TrackedObject> tracks_;
   Route route_;
+  TeamMotions team_;
   PlanResult last_plan_;
   double last_progress_ = 0.0;  // [s] when there was last a way to the goal
   int rejected_ = 0;            // [-] messages that were not usable
@@ -94,6 +99,7 @@ class PlannerNode {
   Latest<parley_msgs::TrackedObjectsConstPtr> new_tracks_;
   Latest<nav_msgs::OccupancyGridConstPtr> new_map_;
   Latest<parley_msgs::RouteConstPtr> new_route_;
+  Latest<parley_msgs::PeerMotionsConstPtr> new_team_;
   OdometryInput odometry_;
   std::vector<ros::Subscriber> subscribers_;
   std::unique_ptr<GoalInput> orders_;

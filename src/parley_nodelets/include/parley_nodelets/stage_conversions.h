@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <nav_msgs/Path.h>
 #include <parley_msgs/ObstacleScan.h>
 #include <parley_msgs/RobotState.h>
 #include <parley_msgs/Route.h>
 #include <parley_msgs/TrackedObjects.h>
-#include <parley_msgs/Trajectory.h>
 
 #include <optional>
 #include <string>
@@ -16,16 +14,8 @@
 #include "parley_geometry/route.h"
 #include "parley_geometry/scan.h"
 #include "parley_geometry/tracked_object.h"
-#include "parley_planner/planner.h"
 
 namespace parley {
-
-/// A plan with the times that belong to it.
-struct TimedPlan {
-  PlanResult result;        // path, local goal and speed bound do not travel
-  double made_at = 0.0;     // [s] of the data it was made from
-  double start_time = 0.0;  // [s] when it takes effect
-};
 
 /// A route and the goal that it was asked for.
 struct RouteToGoal {
@@ -38,15 +28,10 @@ struct RouteToGoal {
 std::optional<ObstacleScan> fromMessage(const parley_msgs::ObstacleScan& message);
 std::optional<std::vector<TrackedObject>> fromMessage(const parley_msgs::TrackedObjects& message);
 std::optional<RouteToGoal> fromMessage(const parley_msgs::Route& message);
-std::optional<TimedPlan> fromMessage(const parley_msgs::Trajectory& message);
 
 parley_msgs::ObstacleScan toMessage(const ObstacleScan& scan, const std::string& base_frame);
 parley_msgs::TrackedObjects toMessage(const std::vector<TrackedObject>& tracks, double stamp, const std::string& odom_frame);
 parley_msgs::Route toMessage(const RouteToGoal& route, double stamp, const std::string& odom_frame);
-parley_msgs::Trajectory toMessage(const TimedPlan& plan, const std::string& odom_frame);
 parley_msgs::RobotState toMessage(const ControlResult& result, double stamp, const std::string& base_frame);
-
-/// A trajectory as RViz draws it.
-nav_msgs::Path toPath(const SampledTrajectory& trajectory, double stamp, const std::string& odom_frame);
 
 }  // namespace parley

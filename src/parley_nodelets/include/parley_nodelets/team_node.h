@@ -27,7 +27,7 @@
 namespace parley {
 
 /// Exchange and relative localization in ROS: `odom`, `obstacles`, `contours`, `trajectory`, `robot_state` and the radio
-/// become `peers`, `peer_maps`, `teammates`, and the frames of confirmed peers in tf.
+/// become `peers`, `peer_motions`, `peer_maps`, `teammates`, and the frames of confirmed peers in tf.
 class TeamNode {
  public:
   /// Throws std::invalid_argument with all problems of the parameters.
@@ -44,6 +44,7 @@ class TeamNode {
   void exchangeMaps();
   void publishTeammates(double now);
   void publishPeers(double now);
+  void publishMotions(double now);
   void publishMaps(double now);
   void report(Report& report);
   void reportRadio(Report& report);
@@ -62,6 +63,7 @@ class TeamNode {
   std::map<std::string, parley_msgs::MapLayer> layers_;          // by origin, as published
   std::deque<std::pair<double, parley_msgs::Contour>> refuted_;  // when they were noticed [s], as published
   bool teammates_told_ = false;                                  // the last message named some
+  double motions_told_ = -1e9;                                   // [s]
   int rejected_ = 0;                                             // [-] messages that were not usable
   double reported_at_ = 0.0;                                     // [s] and
   std::int64_t reported_bytes_ = 0;                              // [byte] at the last report
@@ -69,6 +71,7 @@ class TeamNode {
   ros::Publisher peers_;
   ros::Publisher peer_maps_;
   ros::Publisher teammates_;
+  ros::Publisher motions_;
   ros::Publisher markers_;
   tf2_ros::TransformBroadcaster transforms_;
   Radio radio_;

@@ -13,9 +13,6 @@ namespace parley {
 /// What the planner's answer means for a robot that has to report why it stands.
 DriveState driveStateOf(PlanCode code);
 
-/// The answer that stands in for the planner's while the robot stands at its goal: stay.
-PlanResult arrivedPlan();
-
 /// The trajectory that is driven. A plan takes effect when its start time has come, not before; one that comes too late
 /// is dropped and the committed one stands.
 class CommittedPlan {
