@@ -48,7 +48,7 @@ class TeamsTest : public testing::TestWithParam<std::string> {
 
 TEST_P(TeamsTest, AllArriveNobodyTouchesAnythingAndLimitsHold) {
   const std::string trace = directory_.file("trace.csv");
-  const int status = runFleet(parseArguments(
+  const Result result = runFleet(parseArguments(
       {kRoot + "/maps/scenarios/" + GetParam() + ".yaml", "--quiet", "--config", kRoot + "/config", "--trace", trace}));
   EXPECT_TRUE(result.success);
   EXPECT_EQ(result.collisions(), 0);
