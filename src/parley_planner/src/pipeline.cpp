@@ -303,6 +303,7 @@ PlanResult Planner::Pipeline::keep(PlanCode code, const std::string& why) const 
   result.path = path_;
   result.speed_bound = speed_bound_;
   result.intent = intent_;
+  result.escape = escape_;
   result.escapes = escapes_;
   return result;
 }

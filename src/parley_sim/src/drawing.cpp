@@ -170,6 +170,10 @@ void Drawing::encounter(const Eigen::Vector2d& point) {
   cv::drawMarker(canvas_->image, canvas_->whole(point), kInk, cv::MARKER_DIAMOND, 11, 1, cv::LINE_AA);
 }
 
+void Drawing::escape(const Eigen::Vector2d& point, std::size_t robot) {
+  cv::drawMarker(canvas_->image, canvas_->whole(point), colorOf(robot), cv::MARKER_SQUARE, 10, 2, cv::LINE_AA);
+}
+
 void Drawing::incident(const Eigen::Vector2d& point, bool touched) {
   const cv::Scalar color = touched ? cv::Scalar(0, 140, 255) : kRed;
   canvas_->circle(point, 13.0, color, 2);
@@ -196,6 +200,8 @@ void Drawing::legend(const std::string& title, const std::vector<std::string>& l
   entry("goal and its tolerance");
   cv::drawMarker(canvas.image, mark(), kInk, cv::MARKER_DIAMOND, 11, 1, cv::LINE_AA);
   entry("encounter");
+  cv::drawMarker(canvas.image, mark(), kInk, cv::MARKER_SQUARE, 10, 2, cv::LINE_AA);
+  entry("escape point");
   cv::drawMarker(canvas.image, mark(), kRed, cv::MARKER_TILTED_CROSS, 14, 3, cv::LINE_AA);
   entry("collision");
   const double bar = scaleBarLength(std::max(canvas.world_width, kLegendWidth / canvas.scale));

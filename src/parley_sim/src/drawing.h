@@ -29,6 +29,8 @@ class Drawing {
   void door(const Box& box);
   void obstaclePath(const std::vector<Eigen::Vector2d>& path, double radius);
   void encounter(const Eigen::Vector2d& point);
+  /// Where a robot went to make room.
+  void escape(const Eigen::Vector2d& point, std::size_t robot);
   void incident(const Eigen::Vector2d& point, bool touched);
   /// One line a robot, and what the marks mean.
   void legend(const std::string& title, const std::vector<std::string>& lines);

@@ -43,8 +43,13 @@ void Picture::note(const FleetRunner& runner) {
   if (calls_++ % kSteps != 0) return;
   const std::vector<Body>& bodies = runner.simulation().truth().bodies;
   tracks_.resize(bodies.size());
+  escapes_.resize(bodies.size(), 0);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (bodies[i].present) tracks_[i].push_back(bodies[i].state.pose.position());
+    const BrainOutput& output = runner.output(i);
+    if (output.escapes == escapes_[i] || !output.escape) continue;
+    escapes_[i] = output.escapes;
+    escape_points_.emplace_back(i, bodies[i].state.pose * *output.escape);
   }
 }
 
@@ -54,6 +59,7 @@ void Picture::write(const std::string& file, const FleetRunner& runner) const {
   for (const Box& door : simulation.truth().doors) drawing.door(door);
   for (const MovingObstacleSpec& obstacle : simulation.scenario().obstacles) drawing.obstaclePath(obstacle.path, obstacle.radius);
   drawRobots(drawing, runner, tracks_);
+  for (const auto& [robot, point] : escape_points_) drawing.escape(point, robot);
   for (const Encounter& encounter : simulation.encounters()) drawing.encounter(encounter.position);
   for (const Incident& incident : simulation.referee().incidents()) drawing.incident(incident.position, incident.touched);
   std::vector<std::string> lines;

@@ -52,6 +52,9 @@ class StackBrain : public Brain {
     output.replans = robot.replans;
     output.route_switches = robot.route_switches;
     output.escapes = robot.escapes;
+    if (const auto& escape = stack_.lastPlan().escape; escape && !stack_.odometry().empty()) {
+      output.escape = stack_.odometry().latest().pose.inverse() * *escape;
+    }
     if (stack_.team()) report(*stack_.team(), output);
     state_ = std::string(toString(robot.state)) + (robot.reason.empty() ? "" : ": " + robot.reason);
     return output;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "parley_geometry/footprint.h"
@@ -56,6 +57,7 @@ struct PlanResult {
   std::vector<Eigen::Vector2d> path;                     // [m] that the trajectory follows
   double speed_bound = 0.0;                              // [m/s] what sight allows at the start
   Intent intent;                                         // to be told to teammates
+  std::optional<Eigen::Vector2d> escape = std::nullopt;  // [m] point on the way to which it makes room
   int escapes = 0;                                       // [-] escape points taken so far
 };
 

@@ -34,8 +34,9 @@ struct BrainOutput {
   int replans = 0;  // [-] since the start, as the two below
   int route_switches = 0;
   int escapes = 0;
-  std::vector<PeerBelief> beliefs;  // confirmed relative poses
-  SentBytes sent;                   // since the start
+  std::optional<Eigen::Vector2d> escape;  // [m] in base_link: where it goes to make room
+  std::vector<PeerBelief> beliefs;        // confirmed relative poses
+  SentBytes sent;                         // since the start
 };
 
 /// The mind of one robot. An interface, so that the runner can be tested with minds that do one simple thing.

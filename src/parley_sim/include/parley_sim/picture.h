@@ -17,7 +17,9 @@ class Picture {
   void write(const std::string& file, const FleetRunner& runner) const;
 
  private:
-  std::vector<std::vector<Eigen::Vector2d>> tracks_;  // [m] per robot
+  std::vector<std::vector<Eigen::Vector2d>> tracks_;                    // [m] per robot
+  std::vector<int> escapes_;                                            // [-] seen so far, per robot
+  std::vector<std::pair<std::size_t, Eigen::Vector2d>> escape_points_;  // robot, [m]
   long calls_ = 0;
 };
 
