@@ -52,7 +52,7 @@ Planner::Pipeline::Pipeline(const PlannerOptions& options, const Footprint& foot
       validator_(footprint, limits, options.prediction_time, options.track_margin),
       sight_law_(sightLaw(options, footprint), limits),
       watch_(options.stuck_time),
-      traffic_(options, footprint, limits) {}
+      traffic_(options, footprint) {}
 
 void Planner::Pipeline::reset() {
   surroundings_ = {};

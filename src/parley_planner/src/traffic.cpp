@@ -31,8 +31,7 @@ double clearOf(const Footprint& a, const Footprint& b) { return 0.5 * (a.width +
 
 }  // namespace
 
-Traffic::Traffic(const PlannerOptions& options, const Footprint& footprint, const MotionLimits& limits)
-    : options_(options), footprint_(footprint), limits_(limits) {}
+Traffic::Traffic(const PlannerOptions& options, const Footprint& footprint) : options_(options), footprint_(footprint) {}
 
 void Traffic::reset() {
   peers_.clear();

@@ -24,7 +24,7 @@ struct TrafficDecision {
 /// drives the same way does not make room.
 class Traffic {
  public:
-  Traffic(const PlannerOptions& options, const Footprint& footprint, const MotionLimits& limits);
+  Traffic(const PlannerOptions& options, const Footprint& footprint);
 
   void reset();
 
@@ -60,7 +60,6 @@ class Traffic {
 
   PlannerOptions options_;
   Footprint footprint_;
-  MotionLimits limits_;
   std::vector<PeerMotion> peers_;
   std::vector<PeerTube> tubes_;
   std::vector<PeerMotion> careful_;

@@ -49,7 +49,7 @@ class TrafficTest : public testing::Test {
   std::vector<TrackedObject> tracks_;
   Route route_;
   SampledTrajectory committed_;
-  Traffic traffic_{options_, robotFootprint(), robotLimits()};
+  Traffic traffic_{options_, robotFootprint()};
 };
 
 TEST(RightOfWay, OrdersAnyTwo) {
@@ -77,7 +77,7 @@ TEST_F(TrafficTest, OfTwoWhoseWaysMeetExactlyOneMakesRoom) {
     const Eigen::Vector2d a1(place(random), place(random)), a2(place(random), place(random));
     const Eigen::Vector2d b1(place(random), place(random)), b2(place(random), place(random));
     if ((a1 - b1).norm() < 1.0 || (a1 - a2).norm() < 1.0 || (b1 - b2).norm() < 1.0) continue;
-    Traffic a(options_, robotFootprint(), robotLimits()), b(options_, robotFootprint(), robotLimits());
+    Traffic a(options_, robotFootprint()), b(options_, robotFootprint());
     observe(&a, {peer(2, {b1.x(), b1.y(), 0.0}, b2)});
     observe(&b, {peer(1, {a1.x(), a1.y(), 0.0}, a2)});
     const TrafficDecision of_a = decide(&a, way(a1.x(), a1.y(), a2.x(), a2.y()), {1.0, 1, 0}, 0.0, 0.0);
