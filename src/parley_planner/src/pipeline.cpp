@@ -158,7 +158,7 @@ bool Planner::Pipeline::arrived(const PlanRequest& request) {
 
 bool Planner::Pipeline::mayKeep(const PlanRequest& request) const {
   if (request.committed.empty() || request.start_time >= request.committed.endTime()) return false;
-  if (isNearPeers(request)) return false;
+  if (isEngaged(request)) return false;
   const bool alone = std::none_of(request.tracks.begin(), request.tracks.end(),
                                   [](const TrackedObject& track) { return track.has_moved || track.observations < kNewTrack; });
   if (!alone) return false;  // first sight must not wait

@@ -49,6 +49,7 @@ class Planner::Pipeline {
   RightOfWay ownRight(const PlanRequest& request) const;
   bool isBehindPeer(const TrajectoryPoint& start) const;
   bool isNearPeers(const PlanRequest& request) const;
+  bool isEngaged(const PlanRequest& request) const;
   Path expectedWay(const PlanRequest& request) const;
   Path desiredWay(const TrajectoryPoint& start) const;
   PlanResult rest(const PlanRequest& request, const TrajectoryPoint& start);
@@ -95,6 +96,7 @@ class Planner::Pipeline {
   std::optional<Eigen::Vector2d> way_out_;  // [m] of where it is shut in
   double passing_off_until_ = -1e9;         // [s] passing by did not work
   int escapes_ = 0;
+  bool meets_ = false;                  // its way met somebody's at the last plan
   bool reached_ = false;                // it has stood at this goal
   double rested_since_ = 0.0;           // [s]
   PlanCode code_ = PlanCode::kDriving;  // of what was committed last

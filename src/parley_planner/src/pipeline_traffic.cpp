@@ -12,7 +12,8 @@ namespace parley {
 namespace {
 
 constexpr double kNearPeer = 10.0;      // [m] a peer further off does not matter
-constexpr double kWishStays = 0.25;     // [s]
+constexpr double kClosePeer = 6.0;      // [m]
+constexpr double kWishStays = 0.35;     // [s]
 constexpr double kRest = 0.7;           // [s] at its goal before a robot makes room for others
 constexpr double kOut = 0.7;            // [m] from the place where it wanted to go, a robot is out again
 constexpr double kBlockedBreak = 1.0;   // [s]
@@ -64,6 +65,14 @@ bool Planner::Pipeline::isNearPeers(const PlanRequest& request) const {
   const Eigen::Vector2d here = request.odometry.pose.position();
   return std::any_of(traffic_.tubes().begin(), traffic_.tubes().end(),
                      [&](const PeerTube& tube) { return (tube.pose.position() - here).norm() < kNearPeer; });
+}
+
+/// With somebody whose way met its own at the last plan, or who is so near that it may the next moment.
+bool Planner::Pipeline::isEngaged(const PlanRequest& request) const {
+  const Eigen::Vector2d here = request.odometry.pose.position();
+  return std::any_of(traffic_.tubes().begin(), traffic_.tubes().end(), [&](const PeerTube& tube) {
+    return (tube.pose.position() - here).norm() < (meets_ ? kNearPeer : kClosePeer);
+  });
 }
 
 bool Planner::Pipeline::isBehindPeer(const TrajectoryPoint& start) const {
@@ -135,6 +144,7 @@ PlanResult Planner::Pipeline::negotiate(const PlanRequest& request, const Trajec
   desired_ = desired;
   desired_at_ = request.now;
   const TrafficDecision decision = traffic_.decide(desired, ownRight(request), start, request.now);
+  meets_ = !decision.first.empty() || !decision.opposite.empty();
   if (watch_.level() > 0 && request.now > passing_off_until_) passing_off_until_ = request.now + kPassingOff;
   tell(decision.right, desired);
   if (std::optional<Proposal> proposal = passBy(decision, desired, request, start)) {
