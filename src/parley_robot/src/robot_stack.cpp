@@ -54,7 +54,7 @@ void RobotStack::joinTeam() {
 }
 
 bool RobotStack::setGoal(const Eigen::Vector2d& goal_odom) {
-  if (!goal_.set(smooth_.T_odom_local().inverse() * goal_odom)) return false;
+  if (!goal_.set(smooth_.odomFromLocal().inverse() * goal_odom)) return false;
   route_ = {};
   planner_.reset();
   return true;
@@ -66,11 +66,11 @@ void RobotStack::cancelGoal() {
 }
 
 void RobotStack::addOdometry(const Odometry& odometry) {
-  const Pose2 T_odom_before = smooth_.T_odom_local();
+  const Pose2 T_odom_before = smooth_.odomFromLocal();
   const Odometry local = smooth_.add(odometry);
   if (smooth_.corrections() > counters_.odometry_corrections) {
     counters_.odometry_corrections = smooth_.corrections();
-    goal_.carry(smooth_.T_odom_local().inverse() * T_odom_before);
+    goal_.carry(smooth_.odomFromLocal().inverse() * T_odom_before);
   }
   switch (odometry_.add(local)) {
     case OdometryVerdict::kAccepted:

@@ -62,9 +62,9 @@ class Meeting {
     const auto& teammates = robot.stack.team()->teammates();
     const auto found = teammates.find(robotIdOf(name));
     if (found == teammates.end() || found->second.estimate.state != PoseState::kConfirmed) return std::nullopt;
-    const Pose2 T_local_base = other.stack.T_odom_local().inverse() * other.odometry();
+    const Pose2 T_local_base = other.stack.odomFromLocal().inverse() * other.odometry();
     const Pose2 believed =
-        robot.T_world_odom * robot.stack.T_odom_local() * found->second.estimate.T_odom_peerodom.pose * T_local_base;
+        robot.T_world_odom * robot.stack.odomFromLocal() * found->second.estimate.T_odom_peerodom.pose * T_local_base;
     return (believed.position() - other.drive.pose.position()).norm();
   }
 

@@ -80,7 +80,7 @@ TEST(SmoothOdometry, correctionsMoveTheFrameAndNotTheRobot) {
         const Odometry local = smooth.add(reading);
         ASSERT_LT(distance(local.pose, driver.pose), 0.15) << "seed " << seed;
         ASSERT_LT(std::abs(angleBetween(local.pose.yaw, driver.pose.yaw)), 0.05) << "seed " << seed;
-        ASSERT_LT(distance(smooth.T_odom_local() * local.pose, reading.pose), 1e-9) << "seed " << seed;
+        ASSERT_LT(distance(smooth.odomFromLocal() * local.pose, reading.pose), 1e-9) << "seed " << seed;
       }
       ASSERT_EQ(smooth.corrections(), 1) << "seed " << seed << ", " << dt << " s";
     }
@@ -115,7 +115,7 @@ TEST(SmoothOdometry, jumpsGapsAndRubbishPassThrough) {
   EXPECT_TRUE(passes({0.0, {2.4, 0.0, 0.0}, {}, 0.0, 0.0})) << "time went back";
   smooth.add({0.1, {2.7, 0.0, 0.0}, {}, 0.0, 0.0});
   EXPECT_EQ(smooth.corrections(), 1);
-  EXPECT_NEAR(smooth.T_odom_local().x, 0.3, 1e-9);
+  EXPECT_NEAR(smooth.odomFromLocal().x, 0.3, 1e-9);
 }
 
 TEST(SmoothOdometry, aWrongReadingThatIsTakenBackLeavesNothing) {
@@ -127,7 +127,7 @@ TEST(SmoothOdometry, aWrongReadingThatIsTakenBackLeavesNothing) {
   driver.T_odom_world = {};
   for (int i = 0; i < 40; ++i) smooth.add(driver.step(0.05));
   EXPECT_EQ(smooth.corrections(), 2);
-  EXPECT_LT(smooth.T_odom_local().position().norm(), 0.1);
+  EXPECT_LT(smooth.odomFromLocal().position().norm(), 0.1);
 }
 
 }  // namespace parley

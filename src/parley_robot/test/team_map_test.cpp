@@ -129,7 +129,7 @@ class Doors : public testing::Test {
     meeting_.run(9.0);
     ASSERT_TRUE(Meeting::errorOf(bob_, ann_, "ann"));
     bob_.go({2.0, 6.0});
-    meeting_.run(8.0);
+    meeting_.run(14.0);
     ASSERT_EQ(bob_.output.state, DriveState::kArrived);
   }
   /// Where bob would go now, from a place where he sees neither door.

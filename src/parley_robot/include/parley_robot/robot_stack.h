@@ -64,7 +64,7 @@ class RobotStack {
 
   const OdometryBuffer& odometry() const { return odometry_; }
   /// Where the frame of all that is asked for here lies in that of odometry and goal; identity until the first correction.
-  const Pose2& T_odom_local() const { return smooth_.T_odom_local(); }
+  const Pose2& odomFromLocal() const { return smooth_.odomFromLocal(); }
   const Topology& topology() const { return topology_; }
   const CommittedPlan& plan() const { return plan_; }
   const PlanResult& lastPlan() const { return last_plan_; }

@@ -27,7 +27,7 @@ class SmoothOdometry {
   Odometry add(const Odometry& reading);
 
   /// Where the local frame lies in that of odometry.
-  const Pose2& T_odom_local() const { return T_odom_local_; }
+  const Pose2& odomFromLocal() const { return T_odom_local_; }
   int corrections() const { return corrections_; }
 
  private:
