@@ -10,14 +10,13 @@ namespace parley {
 
 namespace {
 
-constexpr int kMostPasses = 8;           // simulations until the margins must be kept
-constexpr double kBackOff = 0.03;        // [m] stop this much before what is too near
-constexpr double kTrackBackOff = 0.2;    // [m] as above for what moves: it comes nearer while the robot brakes
-constexpr double kPeerBackOff = 0.3;     // [m] as above for teammates: either may have to turn
-constexpr double kSlack = 0.005;         // [m] by which a start that is too near may come nearer: lookups are no better
-constexpr double kLastMargin = 0.01;     // [m]
-constexpr double kSpeedSlack = 0.02;     // [m/s]
-constexpr double kMostUncertain = 0.15;  // [m] of a peer's place
+constexpr int kMostPasses = 8;         // simulations until the margins must be kept
+constexpr double kBackOff = 0.03;      // [m] stop this much before what is too near
+constexpr double kTrackBackOff = 0.2;  // [m] as above for what moves: it comes nearer while the robot brakes
+constexpr double kPeerBackOff = 0.3;   // [m] as above for teammates: either may have to turn
+constexpr double kSlack = 0.005;       // [m] by which a start that is too near may come nearer: lookups are no better
+constexpr double kLastMargin = 0.01;   // [m]
+constexpr double kSpeedSlack = 0.02;   // [m/s]
 
 }  // namespace
 
@@ -26,7 +25,7 @@ DriveGenerator::DriveGenerator(const Footprint& footprint, const MotionLimits& l
 
 double peerClearance(const Footprint& footprint, const TrajectoryPoint& point, const PeerMotion& peer, double margin) {
   const Pose2 there = peer.trajectory.at(point.time).pose;
-  const double kept = margin + std::min(kMostUncertain, 2.0 * peer.sigma);
+  const double kept = margin + uncertaintyOf(peer);
   const double apart = (there.position() - point.pose.position()).norm();
   const double far = apart - footprint.circumscribedRadius() - peer.footprint.circumscribedRadius() - kept;
   if (far > 1.0) return 1.0;

@@ -12,7 +12,6 @@ namespace parley {
 namespace {
 
 constexpr double kStandingSpeed = 0.02;   // [m/s] [rad/s]
-constexpr double kSlowSpeed = 0.3;        // [m/s] slower than this, a turn on the spot may be called for
 constexpr double kDirectionReach = 0.5;   // [m] a path's first direction is that to a point so far along it
 constexpr double kTurnWhileMoving = 1.9;  // [rad] off the heading, a moving robot stops first
 constexpr double kWorthStarting = 0.04;   // [m] drives that get less far are not worth starting
@@ -30,11 +29,11 @@ double firstDirection(const Path& path) {
   return std::atan2(step.y(), step.x());
 }
 
+}  // namespace
+
 bool isUseful(const std::optional<Proposal>& proposal) {
   return proposal && (proposal->advance > kUsefulAdvance || proposal->end == DriveEnd::kPathEnd);
 }
-
-}  // namespace
 
 bool stands(const Twist2& twist) { return std::abs(twist.speed) < kStandingSpeed && std::abs(twist.turn_rate) < kStandingSpeed; }
 

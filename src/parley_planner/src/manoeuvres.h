@@ -52,8 +52,12 @@ class Manoeuvres {
   DriveGenerator generator_;
 };
 
+constexpr double kSlowSpeed = 0.3;  // [m/s] slower than this a robot may try other manoeuvres than driving on
 /// A drive that gets less far is worth looking for another. [m]
 constexpr double kUsefulAdvance = 0.3;
+
+/// It gets somewhere, or as far as was asked.
+bool isUseful(const std::optional<Proposal>& proposal);
 
 /// Slower than 2 cm/s and 0.02 rad/s.
 bool stands(const Twist2& twist);

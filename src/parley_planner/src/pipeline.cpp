@@ -13,10 +13,8 @@ namespace {
 
 constexpr double kWindowRim = 0.4;        // [m] the local goal stays this far inside the window
 constexpr double kLastStretch = 0.8;      // [s] so little before it ends at the goal, a trajectory is left alone
-constexpr double kSqueezePeriod = 0.5;    // [s] the search for narrow places is the dearest step
 constexpr double kLeastMargin = 0.015;    // [m] to single returns, whose noise this is about
 constexpr int kNewTrack = 4;              // [-] scans until a thing that does not move is believed to stand
-constexpr double kSlowSpeed = 0.3;        // [m/s]
 constexpr double kWiderPush = 0.25;       // [m] more, where the usual path led nowhere
 constexpr double kBlockedReach = 1.5;     // [m] moving things nearer than this are what blocks
 constexpr double kRouteStays = 30.0;      // [s]
@@ -36,10 +34,6 @@ SightLawOptions sightLaw(const PlannerOptions& options, const Footprint& footpri
   law.half_width = 0.5 * footprint.width;
   law.least_speed = options.sight_least_speed;
   return law;
-}
-
-bool isUseful(const std::optional<Proposal>& proposal) {
-  return proposal && (proposal->advance > kUsefulAdvance || proposal->end == DriveEnd::kPathEnd);
 }
 
 }  // namespace
@@ -243,15 +237,19 @@ std::optional<Proposal> Planner::Pipeline::bestProposal(const PlanRequest& reque
   return best;
 }
 
-std::optional<Proposal> Planner::Pipeline::attempt(const Attempt& how, const TrajectoryPoint& start) const {
+FoundPath Planner::Pipeline::search(const Attempt& how, const TrajectoryPoint& start) const {
   PathSearchOptions search;
   search.least_clearance = how.least_clearance;
   search.comfort_distance = how.comfort_distance;
   search.clearance_weight = options_.clearance_weight;
   search.unknown_cost = options_.unknown_cost;
   search.keep_discount = options_.keep_path_discount;
+  return searchPath(how.shape != nullptr ? *how.shape : surroundings_, start.pose.position(), local_goal_, path_, search);
+}
+
+std::optional<Proposal> Planner::Pipeline::attempt(const Attempt& how, const TrajectoryPoint& start) const {
   const Surroundings& shape = how.shape != nullptr ? *how.shape : surroundings_;
-  const FoundPath found = searchPath(shape, start.pose.position(), local_goal_, path_, search);
+  const FoundPath found = search(how, start);
   if (found.points.empty() || (how.whole && (!found.reaches || pathLength(found.points) > how.most))) return std::nullopt;
   Path path = straightened(shape, found.points, how.comfort_distance);
   if (!found.reaches && how.trim > 0.0) path = shortened(path, how.trim);

@@ -13,6 +13,8 @@
 
 namespace parley {
 
+constexpr double kSqueezePeriod = 0.5;  // [s] the search for narrow places is the dearest step
+
 /// The steps of one plan and what is remembered between plans.
 class Planner::Pipeline {
  public:
@@ -67,6 +69,7 @@ class Planner::Pipeline {
   bool isTouched(const PlanRequest& request);
   void tell(const RightOfWay& right, const Path& way);
   std::optional<Proposal> bestProposal(const PlanRequest& request, const TrajectoryPoint& start);
+  FoundPath search(const Attempt& how, const TrajectoryPoint& start) const;
   std::optional<Proposal> along(const Path& path, const Attempt& how, const TrajectoryPoint& start) const;
   std::optional<Proposal> attempt(const Attempt& how, const TrajectoryPoint& start) const;
   PlanResult commit(const Proposal& proposal, PlanCode code = PlanCode::kDriving);

@@ -30,11 +30,9 @@ constexpr double kPassingOff = 6.0;     // [s] having got stuck, passing by is n
 constexpr double kFailedFor = 10.0;     // [s] an escape point that could not be reached is not tried for so long
 constexpr double kFailedShortly = 3.0;  // [s] and one to which no motion was found for so long
 constexpr int kEscapeTries = 3;         // [-] escape points looked at in one plan
-constexpr double kSqueezePeriod = 0.5;  // [s]
 constexpr double kStandOff = 0.3;       // [m] that a waiting robot stays before where it could go to
 constexpr double kWorthCreeping = 0.3;  // [m] a waiting robot does not move up by less
 constexpr double kAnotherEscape = 1.0;  // [m] an escape point further from the last is another one
-constexpr double kSlowSpeed = 0.3;      // [m/s]
 constexpr double kCloser = 0.02;        // [m]
 
 bool isIn(const Path& middle, double half_width, const Eigen::Vector2d& p) {
@@ -95,13 +93,7 @@ void Planner::Pipeline::tell(const RightOfWay& right, const Path& way) {
 
 /// Where the robot would go if it were alone: to the local goal, and along the route from there.
 Path Planner::Pipeline::desiredWay(const TrajectoryPoint& start) const {
-  PathSearchOptions search;
-  search.least_clearance = footprint_.inscribedRadius() + 0.01;
-  search.comfort_distance = options_.comfort_distance;
-  search.clearance_weight = options_.clearance_weight;
-  search.unknown_cost = options_.unknown_cost;
-  search.keep_discount = options_.keep_path_discount;
-  const FoundPath found = searchPath(surroundings_, start.pose.position(), local_goal_, path_, search);
+  const FoundPath found = search(usualAttempt(), start);
   if (found.points.empty()) return {start.pose.position()};
   Path way = straightened(surroundings_, found.points, options_.comfort_distance);
   if (!found.reaches) return resampled(way, kTubeStep);
@@ -196,8 +188,7 @@ std::optional<Proposal> Planner::Pipeline::passBy(const TrafficDecision& decisio
   how.whole = true;
   how.most = kDetour * std::min(options_.look_ahead, pathLength(desired)) + kDetourMore;
   std::optional<Proposal> proposal = attempt(how, start);
-  const bool useful = proposal && (proposal->advance > kUsefulAdvance || proposal->end == DriveEnd::kPathEnd);
-  return useful ? proposal : std::nullopt;
+  return isUseful(proposal) ? proposal : std::nullopt;
 }
 
 /// Another goes first: up to where its way begins, or off it.

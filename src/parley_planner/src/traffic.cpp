@@ -9,23 +9,22 @@ namespace parley {
 
 namespace {
 
-constexpr double kBelieved = 3.0;        // [s] a motion told longer ago is not believed
-constexpr double kTrackReach = 0.9;      // [m] a track so near to where a peer should be is of that peer,
-constexpr double kTrackMiss = 0.45;      // [m] and contradicts it if it is further off
-constexpr int kSureTrack = 4;            // [-] scans
-constexpr double kBodyGrowth = 0.15;     // [m] returns so far outside a peer's footprint are its own
-constexpr double kMostUncertain = 0.15;  // [m]
-constexpr double kLentFor = 0.6;         // [s] a right of way is kept after it was last needed
-constexpr double kNoRoomFor = 1.0;       // [s] without anywhere to make room a robot is shut in,
-constexpr double kNoRoomBreak = 0.5;     // [s] with breaks shorter than this,
-constexpr double kShutInFor = 20.0;      // [s] for so long at most
-constexpr double kOutAgain = 10.0;       // [m] and until it has come so far
-constexpr double kKeepsTo = 0.6;         // [s] for which others surely keep to what they said
-constexpr double kUsualSpeed = 1.2;      // [m/s] at which robots are taken to get on
-constexpr double kAhead = 1.5;           // [s] by which a robot must be earlier to pass before one that goes first
-constexpr double kPassingGap = 0.12;     // [m] between two that pass each other
-constexpr double kBodyGap = 0.1;         // [m] that a standing robot leaves beside the other
-constexpr double kAside = 0.25;          // [m] more, up to which two that come towards each other mind each other
+constexpr double kBelieved = 3.0;     // [s] a motion told longer ago is not believed
+constexpr double kTrackReach = 0.9;   // [m] a track so near to where a peer should be is of that peer,
+constexpr double kTrackMiss = 0.45;   // [m] and contradicts it if it is further off
+constexpr int kSureTrack = 4;         // [-] scans
+constexpr double kBodyGrowth = 0.15;  // [m] returns so far outside a peer's footprint are its own
+constexpr double kLentFor = 0.6;      // [s] a right of way is kept after it was last needed
+constexpr double kNoRoomFor = 1.0;    // [s] without anywhere to make room a robot is shut in,
+constexpr double kNoRoomBreak = 0.5;  // [s] with breaks shorter than this,
+constexpr double kShutInFor = 20.0;   // [s] for so long at most
+constexpr double kOutAgain = 10.0;    // [m] and until it has come so far
+constexpr double kKeepsTo = 0.6;      // [s] for which others surely keep to what they said
+constexpr double kUsualSpeed = 1.2;   // [m/s] at which robots are taken to get on
+constexpr double kAhead = 1.5;        // [s] by which a robot must be earlier to pass before one that goes first
+constexpr double kPassingGap = 0.12;  // [m] between two that pass each other
+constexpr double kBodyGap = 0.1;      // [m] that a standing robot leaves beside the other
+constexpr double kAside = 0.25;       // [m] more, up to which two that come towards each other mind each other
 
 double clearOf(const Footprint& a, const Footprint& b) { return 0.5 * (a.width + b.width) + kPassingGap; }
 
@@ -71,7 +70,7 @@ void Traffic::observe(const PlanRequest& request) {
       careful_.push_back(peer);
       careful_.back().trajectory = SampledTrajectory(std::move(points));
     }
-    const double margin = options_.peer_margin + std::min(kMostUncertain, 2.0 * peer.sigma);
+    const double margin = options_.peer_margin + uncertaintyOf(peer);
     tubes_.push_back(tubeOf(peer, request.now, margin));
   }
   withoutPeers(request);
@@ -93,7 +92,7 @@ void Traffic::withoutPeers(const PlanRequest& request) {
   tracks_ = request.tracks;
   for (const PeerMotion& peer : peers_) {
     const Pose2 pose = peer.trajectory.at(request.scan.stamp).pose;
-    const double growth = kBodyGrowth + std::min(kMostUncertain, 2.0 * peer.sigma);
+    const double growth = kBodyGrowth + uncertaintyOf(peer);
     const Pose2 T_peer_scan = pose.inverse() * request.T_odom_scan;
     for (std::size_t bin = 0; bin < scan_.binCount(); ++bin) {
       const double range = static_cast<double>(scan_.ranges[bin]);

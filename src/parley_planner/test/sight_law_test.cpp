@@ -8,6 +8,14 @@
 namespace parley {
 namespace {
 
+/// A corridor that turns left.
+World corner() {
+  World world(10, 10, true);
+  world.fill(0, 4.2, 6, 5.8, false);
+  world.fill(4.4, 4.2, 6, 10, false);
+  return world;
+}
+
 class SightLawTest : public testing::Test {
  protected:
   void look(const World& world, const Pose2& pose, double now, const std::vector<TrackedObject>& tracks = {}) {
@@ -38,9 +46,7 @@ TEST_F(SightLawTest, StraightCorridorIsFast) {
 }
 
 TEST_F(SightLawTest, BlindCornerIsSlower) {
-  World world(10, 10, true);
-  world.fill(0, 4.2, 6, 5.8, false);
-  world.fill(4.4, 4.2, 6, 10, false);
+  const World world = corner();
   const Pose2 pose{3.6, 4.8, 0.0};
   look(world, pose, 0.0);
   EXPECT_LT(speedAt(pose), 1.95);
@@ -63,9 +69,7 @@ TrackedObject walker(const Eigen::Vector2d& position, const Eigen::Vector2d& vel
 }
 
 TEST_F(SightLawTest, AKnownTeamHidesNobodyButIsMetAsEver) {
-  World world(10, 10, true);
-  world.fill(0, 4.2, 6, 5.8, false);
-  world.fill(4.4, 4.2, 6, 10, false);
+  const World world = corner();
   const Pose2 pose{3.6, 4.8, 0.0};
   look(world, pose, 0.0);
   const double unknown = speedAt(pose);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <tuple>
 #include <vector>
@@ -38,5 +39,8 @@ struct PeerMotion {
   double sigma = 0.0;            // [m] standard deviation of its place here
   Intent intent;                 // way empty: it has not said
 };
+
+/// By how much a peer may be elsewhere than where it is believed: two standard deviations, 0.15 at most. [m]
+inline double uncertaintyOf(const PeerMotion& peer) { return std::min(0.15, 2.0 * peer.sigma); }
 
 }  // namespace parley
