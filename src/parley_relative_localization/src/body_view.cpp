@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "body_view.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -28,26 +29,31 @@ double rangeToBox(const Eigen::Vector2d& from, const Eigen::Vector2d& direction,
 }  // namespace
 
 std::optional<SightedBlob> viewOfBody(const Footprint& footprint, const Pose2& T_scan_body) {
-  const Pose2 T_body_scan = T_scan_body.inverse();
+  // Much of a meeting's time goes into this, so rotations are worked out once each.
+  const Eigen::Matrix2d rotation = Eigen::Rotation2Dd(T_scan_body.yaw).toRotationMatrix();
+  const Eigen::Vector2d origin = T_scan_body.position();
+  const Eigen::Vector2d from = -(rotation.transpose() * origin);
   const Eigen::Vector2d half(0.5 * footprint.length, 0.5 * footprint.width);
-  const Eigen::Vector2d outside = (T_body_scan.position().cwiseAbs() - half).cwiseMax(0.0);
+  const Eigen::Vector2d outside = (from.cwiseAbs() - half).cwiseMax(0.0);
   if (outside.norm() < kNearest) return std::nullopt;
-  const double middle = std::atan2(T_scan_body.y, T_scan_body.x);
+  const Eigen::Vector2d middle = origin.normalized();
   double least = 0.0, most = 0.0;  // [rad] from the bearing of the body's middle
-  for (const Eigen::Vector2d& corner : footprint.polygonAt(T_scan_body)) {
-    const double bearing = angleBetween(middle, std::atan2(corner.y(), corner.x()));
-    least = std::min(least, bearing);
-    most = std::max(most, bearing);
+  for (const double x : {-half.x(), half.x()}) {
+    for (const double y : {-half.y(), half.y()}) {
+      const Eigen::Vector2d corner = origin + rotation * Eigen::Vector2d(x, y);
+      const double bearing = std::atan2(middle.x() * corner.y() - middle.y() * corner.x(), middle.dot(corner));
+      least = std::min(least, bearing);
+      most = std::max(most, bearing);
+    }
   }
-  const double ahead_bearing = middle + 0.5 * (least + most);
-  const Eigen::Vector2d ahead(std::cos(ahead_bearing), std::sin(ahead_bearing)), aside(-ahead.y(), ahead.x());
+  const auto turned = [&middle](double angle) -> Eigen::Vector2d { return Eigen::Rotation2Dd(angle) * middle; };
+  const Eigen::Vector2d ahead = turned(0.5 * (least + most)), aside(-ahead.y(), ahead.x());
+  const Eigen::Matrix2d step = Eigen::Rotation2Dd((most - least) / kRays).toRotationMatrix();
+  Eigen::Vector2d ray = turned(least + 0.5 * (most - least) / kRays);
   double depth = 0.0, low = 0.0, high = 0.0;  // [m]
   int hits = 0;
-  for (int i = 0; i < kRays; ++i) {
-    const double bearing = middle + least + (most - least) * (i + 0.5) / kRays;
-    const Eigen::Vector2d ray(std::cos(bearing), std::sin(bearing));
-    const Eigen::Vector2d ray_body = T_body_scan * ray - T_body_scan.position();
-    const double range = rangeToBox(T_body_scan.position(), ray_body, half);
+  for (int i = 0; i < kRays; ++i, ray = step * ray) {
+    const double range = rangeToBox(from, rotation.transpose() * ray, half);
     if (!std::isfinite(range)) continue;
     depth += range * ray.dot(ahead);
     low = std::min(low, range * ray.dot(aside));

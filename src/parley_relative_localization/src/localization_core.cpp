@@ -65,13 +65,15 @@ bool RelativeLocalization::Core::isBlocked(const PeerLocalizer& one, double now)
 
 /// One global search at a time, for the peer that has waited longest.
 void RelativeLocalization::Core::searchForOne(double now) {
-  if (!options.global_search || now - last_search_ < options.search_period || !own.view().surfaces) return;
+  if (!options.global_search || now - last_search_ < options.search_period) return;
   PeerLocalizer* chosen = nullptr;
   for (auto& entry : peers) {
     const bool is_waiting = entry.second.surfacesToSearch(own.view()) != nullptr;
     if (is_waiting && (chosen == nullptr || entry.second.lastSearch() < chosen->lastSearch())) chosen = &entry.second;
   }
   if (chosen == nullptr) return;
+  own.refresh();
+  if (!own.view().surfaces) return;
   last_search_ = now;
   ++counters.global_searches;
   const auto found = searchGlobally(*own.view().surfaces, *chosen->surfacesToSearch(own.view()), options);
@@ -122,7 +124,8 @@ void RelativeLocalization::Core::mergeGraph(double now, const std::string& peer_
 
 std::vector<PeerEstimate> RelativeLocalization::Core::step(double now) {
   own.forgetBefore(now - options.sight_window - 2.0);
-  own.refresh();
+  const auto needs = [now](const auto& entry) { return entry.second.needsSurfaces(now); };
+  if (std::any_of(peers.begin(), peers.end(), needs)) own.refresh();
   for (auto& entry : peers) entry.second.weigh(now, own.view(), knownFrame(entry.first), counters);
   searchForOne(now);
   std::map<std::string, PeerEstimate> estimates;

@@ -10,6 +10,7 @@ namespace parley {
 namespace {
 
 constexpr double kWeighPeriod = 0.2;        // [s] own scans alone are reason enough after this time
+constexpr double kConfirmedPeriod = 0.4;    // [s] a confirmed pose is weighed no more often
 constexpr double kTentativeMemory = 30.0;   // [s] without new evidence, what is not confirmed is forgotten
 constexpr double kBlindFactor = 2.0;        // [-] where surfaces say nothing, sightings must say so much more
 constexpr double kReason = 16.0;            // [-] squared deviations that a held pose is moved by at most
@@ -57,11 +58,21 @@ void PeerLocalizer::addKeyframe(int id, double stamp, const Pose2& T_odom_scan, 
   changed_ = true;
 }
 
+bool PeerLocalizer::isDue(double now) const {
+  const double since = now - last_weighed_;
+  if (state_ == PoseState::kConfirmed) return since >= kConfirmedPeriod;
+  return changed_ || since >= kWeighPeriod;
+}
+
+bool PeerLocalizer::needsSurfaces(double now) const {
+  return isDue(now) && surfaces_ && !hypotheses_.empty() && hypotheses_.best().fit.isMutual(1, 1);
+}
+
 void PeerLocalizer::weigh(double now, const OwnView& own, const std::optional<Pose2>& known,
                           RelativeLocalizationCounters& counters) {
   side_.motion.forgetBefore(now - options_.sight_window - 2.0);
   side_.forgetBefore(now - options_.sight_window);
-  if (!changed_ && now - last_weighed_ < kWeighPeriod) return;
+  if (!isDue(now)) return;
   if (own.side.sights.empty() || side_.motion.empty()) return;
   last_weighed_ = now;
   changed_ = false;

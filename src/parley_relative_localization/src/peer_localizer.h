@@ -40,6 +40,8 @@ class PeerLocalizer {
   void addSights(const SightReport& report);
   void addKeyframe(int id, double stamp, const Pose2& T_odom_scan, const PolarScan& scan);
 
+  /// Whether weigh() would look at this robot's newest surfaces.
+  bool needsSurfaces(double now) const;
   /// Weighs hypotheses if there is something new. `known`: what others' measurements say of the peer's odom frame.
   void weigh(double now, const OwnView& own, const std::optional<Pose2>& known, RelativeLocalizationCounters& counters);
   /// Moves between the states; `blocked` if another peer claims the same place.
@@ -65,6 +67,7 @@ class PeerLocalizer {
   double travel() const { return travel_; }
 
  private:
+  bool isDue(double now) const;
   SurfaceVerdict checkBest(const OwnView& own, RelativeLocalizationCounters& counters);
   bool isGood(const SightFit& fit) const;
   bool isImprovement(const SightFit& fit, const OwnView& own) const;

@@ -6,19 +6,60 @@
 namespace parley {
 namespace {
 
-constexpr std::int64_t kOffset = std::int64_t{1} << 31;
+constexpr int kPlaceBits = 26;  // of a tile's column or row, which an offset keeps above zero
+constexpr int kTileShift = 2 * kTileBits;
+constexpr std::uint64_t kPlaceMask = (std::uint64_t{1} << kPlaceBits) - 1;
 
+std::uint64_t placeBits(int tile) {
+  return static_cast<std::uint64_t>(tile + (std::int64_t{1} << (kPlaceBits - 1))) & kPlaceMask;
+}
+int tileOfBits(std::uint64_t bits) {
+  return static_cast<int>(static_cast<std::int64_t>(bits & kPlaceMask) - (std::int64_t{1} << (kPlaceBits - 1)));
+}
+
+/// Orders cells by tile and by row in it.
 std::uint64_t keyOf(int x, int y) {
-  return (static_cast<std::uint64_t>(y + kOffset) << 32) | static_cast<std::uint64_t>(x + kOffset);
+  return (placeBits(tileOf(y)) << (kPlaceBits + kTileShift)) | (placeBits(tileOf(x)) << kTileShift) | offsetOf(x, y);
 }
-int xOf(std::uint64_t key) { return static_cast<int>(static_cast<std::int64_t>(key & 0xffffffffU) - kOffset); }
-int yOf(std::uint64_t key) { return static_cast<int>(static_cast<std::int64_t>(key >> 32) - kOffset); }
+int xOf(std::uint64_t key) { return tileOfBits(key >> kTileShift) * kTileSize + static_cast<int>(key & (kTileSize - 1)); }
+int yOf(std::uint64_t key) {
+  return tileOfBits(key >> (kTileShift + kPlaceBits)) * kTileSize + static_cast<int>((key >> kTileBits) & (kTileSize - 1));
+}
 
-void sortUnique(std::vector<LayerCell>& cells) {
-  std::sort(cells.begin(), cells.end());
-  const auto same = [](const LayerCell& a, const LayerCell& b) { return a.key == b.key; };
-  cells.erase(std::unique(cells.begin(), cells.end(), same), cells.end());
-}
+/// Cells, each once with the newest time it came with.
+class CellSet {
+ public:
+  void add(int x, int y, std::uint16_t told) {
+    const std::uint64_t key = keyOf(x, y), tile = key >> kTileShift;
+    if (tile_ == nullptr || tile != last_) {
+      tile_ = &tiles_.try_emplace(tile, kTileCells, kNone).first->second;
+      last_ = tile;
+    }
+    std::int32_t& held = (*tile_)[offsetOf(x, y)];
+    count_ += held == kNone ? 1 : 0;
+    held = std::max(held, static_cast<std::int32_t>(told));
+  }
+  std::size_t count() const { return count_; }
+
+  /// By key.
+  std::vector<LayerCell> cells() const {
+    std::vector<LayerCell> result;
+    result.reserve(count_);
+    for (const auto& [tile, told] : tiles_) {
+      for (std::size_t i = 0; i < told.size(); ++i) {
+        if (told[i] != kNone) result.push_back({(tile << kTileShift) | i, static_cast<std::uint16_t>(told[i])});
+      }
+    }
+    return result;
+  }
+
+ private:
+  static constexpr std::int32_t kNone = -1;
+  std::map<std::uint64_t, std::vector<std::int32_t>> tiles_;
+  std::vector<std::int32_t>* tile_ = nullptr;
+  std::uint64_t last_ = 0;
+  std::size_t count_ = 0;
+};
 
 /// Leaves out cells whose tile cannot be had.
 void keepMapped(TiledMap& map, std::vector<LayerCell>& cells) {
@@ -76,16 +117,15 @@ std::vector<LayerCell> LayerStore::draw(TiledMap& map, const LayerUpdate& layer)
   const double step = 0.5 * map.resolution();
   const int spread = layer.obstacle ? 0 : static_cast<int>(std::ceil(reach_ / map.resolution()));
   const auto limit = static_cast<std::size_t>(options_.max_layer_cells);
-  std::vector<LayerCell> keys;
+  CellSet drawn;
   std::uint16_t told = 0;
   const auto stamp = [&](const Eigen::Vector2d& p) {
     const int cx = map.cellOf(p.x()), cy = map.cellOf(p.y());
     for (int dy = -spread; dy <= spread; ++dy) {
       for (int dx = -spread; dx <= spread; ++dx) {
-        if (dx * dx + dy * dy <= spread * spread) keys.push_back({keyOf(cx + dx, cy + dy), told});
+        if (dx * dx + dy * dy <= spread * spread) drawn.add(cx + dx, cy + dy, told);
       }
     }
-    if (keys.size() > 2 * limit) sortUnique(keys);
   };
   const std::size_t contours = std::min(layer.contours.size(), static_cast<std::size_t>(options_.max_layer_contours));
   saturated_ = saturated_ || contours < layer.contours.size();
@@ -94,17 +134,17 @@ std::vector<LayerCell> LayerStore::draw(TiledMap& map, const LayerUpdate& layer)
     told = map.secondsOf(layer.contours[c].stamp);
     const bool usable = std::none_of(polygon.begin(), polygon.end(), [&](const auto& p) { return map.isOutside(p); });
     const std::size_t segments = polygon.size() < 2 || layer.contours[c].closed ? polygon.size() : polygon.size() - 1;
-    for (std::size_t i = 0; usable && i < segments && keys.size() <= 2 * limit; ++i) {
+    for (std::size_t i = 0; usable && i < segments && drawn.count() <= limit; ++i) {
       const Eigen::Vector2d& a = polygon[i];
       const Eigen::Vector2d& b = polygon[(i + 1) % polygon.size()];
       const int steps = std::max(1, static_cast<int>(std::ceil((b - a).norm() / step)));
-      for (int k = 0; k <= steps && keys.size() <= 2 * limit; ++k) stamp(a + (b - a) * (static_cast<double>(k) / steps));
+      for (int k = 0; k <= steps && drawn.count() <= limit; ++k) stamp(a + (b - a) * (static_cast<double>(k) / steps));
     }
   }
-  sortUnique(keys);
-  saturated_ = saturated_ || keys.size() > limit;
-  keys.resize(std::min(keys.size(), limit));
-  return keys;
+  std::vector<LayerCell> cells = drawn.cells();
+  saturated_ = saturated_ || cells.size() > limit;
+  cells.resize(std::min(cells.size(), limit));
+  return cells;
 }
 
 bool LayerStore::set(TiledMap& map, const LayerUpdate& layer) {
