@@ -162,6 +162,7 @@ class EscapeSearch {
       const double distance = place.distance;
       if (distance < clearOf(tube) + turning && !isAlong(node, place.direction)) return std::nullopt;
       if (distance < clearOf(tube) || (tube.way.back() - p).norm() < endOf(tube)) return std::nullopt;
+      if (tube.stuck && (tube.pose.position() - p).norm() < endOf(tube)) return std::nullopt;
       tight = tight || distance < clearOf(tube) + turning;
     }
     for (const PeerTube& other : task_.others) {

@@ -78,12 +78,14 @@ PathDrive followPath(const ReferencePath& path, const SpeedProfile& profile, con
   drive.points.push_back(start);
   drive.arc_lengths.push_back(motion.s);
   const int most = static_cast<int>(kLongestDrive / time_step);
+  bool stood = false;  // a step from a stand to a stand is followed by more of the same
   for (int k = 1; k <= most; ++k) {
     motion = advanced(path, profile, motion, limits, time_step);
     const Pose2 pose{motion.pose.x, motion.pose.y, wrapAngle(motion.pose.yaw - turned)};
     drive.points.push_back({start.time + k * time_step, pose, {sign * motion.speed, motion.turn_rate}});
     drive.arc_lengths.push_back(motion.s);
-    if (stands(motion) && profile.at(motion.s) < 0.02) break;
+    if (stands(motion) && (stood || profile.at(motion.s) < 0.02)) break;
+    stood = stands(motion);
   }
   drive.points.back().twist = {};
   return drive;

@@ -70,7 +70,7 @@ Path wayFrom(const Path& way, const Eigen::Vector2d& p, double reach) {
 
 PeerTube tubeOf(const PeerMotion& peer, double now, double margin) {
   const TrajectoryPoint present = peer.trajectory.at(now);
-  PeerTube tube{peer.id, peer.intent.right, peer.footprint, present.pose, present.twist.speed, {}, margin, false};
+  PeerTube tube{peer.id, peer.intent.right, peer.footprint, present.pose, present.twist.speed, {}, margin, false, false};
   const TrajectoryPoint& end = peer.trajectory.points().back();
   tube.standing = std::abs(present.twist.speed) < kStandingSpeed && (end.pose.position() - present.pose.position()).norm() < 0.1;
   tube.way = wayFrom(peer.intent.way, present.pose.position(), kLongestWay);

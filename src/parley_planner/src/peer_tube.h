@@ -20,6 +20,7 @@ struct PeerTube {
   Path way;              // [m] evenly spaced by kTubeStep, from where it is
   double margin = 0.0;   // [m] to keep from it
   bool standing = true;  // it stands and has committed to nothing else
+  bool stuck = false;    // it means to go on, but has stood for a while: it may have to turn
 };
 constexpr double kTubeStep = 0.1;  // [m]
 

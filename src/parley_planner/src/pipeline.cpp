@@ -56,6 +56,7 @@ void Planner::Pipeline::reset() {
   intent_ = {};
   escape_.reset();
   way_out_.reset();
+  room_.reset();
   failed_escapes_.clear();
   passing_off_until_ = stranger_until_ = blocked_since_ = blocked_last_ = -1e9;
   stranger_.reset();
@@ -176,6 +177,7 @@ void Planner::Pipeline::look(const PlanRequest& request, const TrajectoryPoint& 
     sight_law_.observe(surroundings_, traffic_.scan(), request.T_odom_scan, moving, start.pose, request.now);
     speed_bound_ = std::min(limits_.speed, sight_law_.speedFor(sight_law_.gapAt(start.pose.position())));
   }
+  lookForRoom(start.pose.position());
   if (!route_.exists()) return;
   local_goal_ = localGoal(route_, request.odometry.pose.position(), options_.look_ahead, request.map.frame, kWindowRim);
   watch_.update(request.odometry.pose.position(), request.now);

@@ -67,6 +67,7 @@ class Planner::Pipeline {
   void standOff(const PlanRequest& request, const TrajectoryPoint& start);
   PlanResult standStill(const PlanRequest& request, const TrajectoryPoint& start, PlanCode code, const std::string& why);
   bool isTouched(const PlanRequest& request);
+  void lookForRoom(const Eigen::Vector2d& here);
   void tell(const RightOfWay& right, const Path& way);
   std::optional<Proposal> bestProposal(const PlanRequest& request, const TrajectoryPoint& start);
   FoundPath search(const Attempt& how, const TrajectoryPoint& start) const;
@@ -89,6 +90,7 @@ class Planner::Pipeline {
   Traffic traffic_;
   Intent intent_;
   std::optional<Eigen::Vector2d> escape_;                           // [m] the escape point on the way to which it is
+  std::optional<Eigen::Vector2d> room_;                             // [m] where it was when another could last have passed
   std::vector<std::pair<double, Eigen::Vector2d>> failed_escapes_;  // [s] until when not to be tried, [m]
   std::optional<PeerTube> stranger_;                                // that it makes room for, unheard
   double stranger_until_ = -1e9;                                    // [s]

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -13,6 +14,12 @@ namespace {
 
 constexpr double kNearPeer = 10.0;      // [m] a peer further off does not matter
 constexpr double kClosePeer = 6.0;      // [m]
+constexpr double kShutIn = 10.0;        // [-] priority of a robot that has nowhere to go
+constexpr double kLongBack = 8.0;       // [m] and as much of a way back makes it higher by kPerLongBack,
+constexpr double kPerLongBack = 0.5;    // [-] so that
+constexpr double kMostBack = 8.0;       // [-] of them are the most that count
+constexpr double kRoomy = 0.75;         // [m] around a place where one robot can pass another
+constexpr double kRoomReach = 0.8;      // [m] so near to it, a robot is soon there
 constexpr double kWishStays = 0.35;     // [s]
 constexpr double kRest = 0.7;           // [s] at its goal before a robot makes room for others
 constexpr double kOut = 0.7;            // [m] from the place where it wanted to go, a robot is out again
@@ -80,10 +87,26 @@ bool Planner::Pipeline::isBehindPeer(const TrajectoryPoint& start) const {
   });
 }
 
-/// When nobody pushes it.
+/// When nobody pushes it. Who has a long way back to where it could let others pass goes before who has not: those who are
+/// deep in a corridor come out first, one after the other.
 RightOfWay Planner::Pipeline::ownRight(const PlanRequest& request) const {
-  if (traffic_.isShutIn(request.now, request.odometry.pose.position())) return {2.0, request.id, 0};
-  return {reached_ ? 0.0 : 1.0, request.id, 0};
+  const Eigen::Vector2d here = request.odometry.pose.position();
+  if (traffic_.isShutIn(request.now, here)) return {kShutIn, request.id, 0};
+  if (reached_) return {0.0, request.id, 0};
+  const double back = room_ ? std::floor((*room_ - here).norm() / kLongBack) : 0.0;
+  return {1.0 + kPerLongBack * std::min(kMostBack, back), request.id, 0};
+}
+
+/// Remembers where there was last room for two.
+void Planner::Pipeline::lookForRoom(const Eigen::Vector2d& here) {
+  const auto isRoomy = [&](const Eigen::Vector2d& offset) {
+    const Eigen::Vector2d place = here + offset;
+    return surroundings_.obstacles().at(place) >= kRoomy && surroundings_.unseen().at(place) >= 0.5 * kRoomy &&
+           surroundings_.obstacles().at(here + 0.5 * offset) >= footprint_.inscribedRadius();
+  };
+  bool found = !room_ || isRoomy({0.0, 0.0});
+  for (int i = 0; i < 8 && !found; ++i) found = isRoomy(kRoomReach * Eigen::Rotation2Dd(0.25 * i * kPi).toRotationMatrix().col(0));
+  if (found) room_ = here;
 }
 
 void Planner::Pipeline::tell(const RightOfWay& right, const Path& way) {
@@ -323,7 +346,8 @@ void Planner::Pipeline::standOff(const PlanRequest& request, const TrajectoryPoi
                        0.0,
                        resampled(through, kTubeStep),
                        options_.peer_margin,
-                       true};
+                       true,
+                       false};
 }
 
 /// Standing, or braking to a stand.

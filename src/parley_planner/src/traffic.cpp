@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace parley {
 
@@ -24,6 +25,9 @@ constexpr double kUsualSpeed = 1.2;   // [m/s] at which robots are taken to get 
 constexpr double kAhead = 1.5;        // [s] by which a robot must be earlier to pass before one that goes first
 constexpr double kPassingGap = 0.12;  // [m] between two that pass each other
 constexpr double kBodyGap = 0.1;      // [m] that a standing robot leaves beside the other
+constexpr double kStuckFor = 2.0;     // [s]
+constexpr double kMeansToGo = 0.5;    // [m] of way that says that a peer that stands would rather not
+constexpr double kTurningGap = 0.15;  // [m] round one that may turn
 constexpr double kAside = 0.25;       // [m] more, up to which two that come towards each other mind each other
 
 double clearOf(const Footprint& a, const Footprint& b) { return 0.5 * (a.width + b.width) + kPassingGap; }
@@ -36,6 +40,7 @@ void Traffic::reset() {
   peers_.clear();
   tubes_.clear();
   careful_.clear();
+  standing_since_.clear();
   lent_until_ = no_room_since_ = no_room_last_ = shut_in_until_ = -1e9;
 }
 
@@ -73,7 +78,20 @@ void Traffic::observe(const PlanRequest& request) {
     const double margin = options_.peer_margin + uncertaintyOf(peer);
     tubes_.push_back(tubeOf(peer, request.now, margin));
   }
+  noteStanding(request.now);
   withoutPeers(request);
+}
+
+void Traffic::noteStanding(double now) {
+  std::map<std::uint32_t, double> since;
+  for (PeerTube& tube : tubes_) {
+    if (!tube.standing) continue;
+    const auto before = standing_since_.find(tube.id);
+    since[tube.id] = before == standing_since_.end() ? now : before->second;
+    const double way = kTubeStep * static_cast<double>(tube.way.size());
+    tube.stuck = now - since[tube.id] > kStuckFor && way > kMeansToGo;
+  }
+  standing_since_ = std::move(since);
 }
 
 /// What moves near a peer but not where it says it is belongs to it, and it does not do what it said.
@@ -133,6 +151,9 @@ RightOfWay Traffic::rightNow(const RightOfWay& own, double now) const {
 bool Traffic::isIn(const PeerTube& tube, const Pose2& pose) const {
   const double half = 0.5 * tube.footprint.width + kBodyGap;
   const Pose2 T_base_odom = pose.inverse();
+  if (tube.stuck && footprint_.contains(T_base_odom * tube.pose.position(), tube.footprint.circumscribedRadius() + kTurningGap)) {
+    return true;
+  }
   return std::any_of(tube.way.begin(), tube.way.end(), [&](const Eigen::Vector2d& p_odom) {
     const Eigen::Vector2d p = T_base_odom * p_odom;
     const double dx = std::max(0.0, std::abs(p.x()) - 0.5 * footprint_.length);
@@ -153,7 +174,7 @@ TrafficDecision Traffic::decide(const Path& way, const RightOfWay& own, const Tr
     // Who has nothing to do any more does not go in front of others either.
     const bool is_in = isIn(tube, state.pose);
     if (!meeting && !is_in) continue;
-    if (meeting && !meeting->against && own.priority > 0.0) continue;
+    if (meeting && !meeting->against && own.priority > 0.0 && !(is_in && tube.stuck)) continue;
     if (is_in) {
       decision.first.push_back(tube);
       decision.in_the_way = true;

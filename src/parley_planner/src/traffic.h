@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -53,6 +54,7 @@ class Traffic {
   TrafficDecision decide(const Path& way, const RightOfWay& own, const TrajectoryPoint& state, double now);
 
  private:
+  void noteStanding(double now);
   bool isIn(const PeerTube& tube, const Pose2& pose) const;
   bool contradicted(const PeerMotion& peer, const PlanRequest& request) const;
   void withoutPeers(const PlanRequest& request);
@@ -63,6 +65,7 @@ class Traffic {
   std::vector<PeerMotion> peers_;
   std::vector<PeerTube> tubes_;
   std::vector<PeerMotion> careful_;
+  std::map<std::uint32_t, double> standing_since_;  // [s] by peer
   ObstacleScan scan_;
   std::vector<TrackedObject> tracks_;
   RightOfWay lent_;              // of the robot that this one makes room for

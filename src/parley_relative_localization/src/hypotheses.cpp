@@ -58,9 +58,10 @@ void Hypotheses::propose(const MeetingSide& own, const MeetingSide& peer, double
     if (theirs.blobs.empty()) continue;
     for (const SightRecord& mine : own.sights) {
       if (std::abs(mine.stamp - theirs.stamp) > reach) continue;
-      SightRecord fitting = mine;
-      const auto not_peer = [&](const SightedBlob& blob) { return !couldBe(blob, peer.footprint); };
-      fitting.blobs.erase(std::remove_if(fitting.blobs.begin(), fitting.blobs.end(), not_peer), fitting.blobs.end());
+      SightRecord fitting{mine.stamp, mine.T_odom_scan, {}, {}, false, {}};
+      for (std::size_t i = 0; i < mine.blobs.size(); ++i) {
+        if (couldBe(mine.blobs[i], peer.footprint) && !mine.isOfAnother(i, peer.name)) fitting.blobs.push_back(mine.blobs[i]);
+      }
       propose(fitting, theirs, found);
     }
   }

@@ -11,6 +11,7 @@ namespace parley {
 namespace {
 
 constexpr double kSamePlace = 0.6;    // [m] two robots are never nearer to each other than this
+constexpr double kBody = 0.45;        // [m] a robot's visible middle is at most so far from its centre
 constexpr double kSolvePeriod = 0.5;  // [s]
 
 /// Larger of the deviations of the peer's place near this robot. [m]
@@ -52,12 +53,13 @@ void RelativeLocalization::Core::forget(const std::string& peer_name) {
   demoted_.erase(peer_name);
 }
 
-/// Another peer claims the place, and is not much worse supported.
-bool RelativeLocalization::Core::isBlocked(const PeerLocalizer& one, double now) const {
-  const auto wanted = one.claim(now);
+/// Another peer claims the place where this one was last seen, and is not much worse supported.
+bool RelativeLocalization::Core::isBlocked(const PeerLocalizer& one) const {
+  const auto seen_at = one.lastEvidence();
+  const auto wanted = seen_at ? one.claim(*seen_at) : std::nullopt;
   if (!wanted) return false;
   return std::any_of(peers.begin(), peers.end(), [&](const auto& entry) {
-    const auto other = entry.first == one.name() ? std::nullopt : entry.second.claim(now);
+    const auto other = entry.first == one.name() ? std::nullopt : entry.second.claim(*seen_at);
     return other && (other->place - wanted->place).norm() < kSamePlace &&
            (other->confirmed || other->score > options.rival_share * wanted->score);
   });
@@ -65,15 +67,13 @@ bool RelativeLocalization::Core::isBlocked(const PeerLocalizer& one, double now)
 
 /// One global search at a time, for the peer that has waited longest.
 void RelativeLocalization::Core::searchForOne(double now) {
-  if (!options.global_search || now - last_search_ < options.search_period) return;
+  if (!options.global_search || now - last_search_ < options.search_period || !own.view().surfaces) return;
   PeerLocalizer* chosen = nullptr;
   for (auto& entry : peers) {
     const bool is_waiting = entry.second.surfacesToSearch(own.view()) != nullptr;
     if (is_waiting && (chosen == nullptr || entry.second.lastSearch() < chosen->lastSearch())) chosen = &entry.second;
   }
   if (chosen == nullptr) return;
-  own.refresh();
-  if (!own.view().surfaces) return;
   last_search_ = now;
   ++counters.global_searches;
   const auto found = searchGlobally(*own.view().surfaces, *chosen->surfacesToSearch(own.view()), options);
@@ -122,16 +122,33 @@ void RelativeLocalization::Core::mergeGraph(double now, const std::string& peer_
   estimate.support = known.edges;
 }
 
+/// What is seen where a confirmed peer is, is that peer and no other. Robots that start alike in a building that is alike on
+/// both sides are taken for each other otherwise.
+void RelativeLocalization::Core::nameBlobs(const std::vector<PeerEstimate>& estimates) {
+  own.nameBlobs([&](double stamp, const Eigen::Vector2d& place) {
+    std::string nearest;
+    double least = kBody;
+    for (const PeerEstimate& estimate : estimates) {
+      const auto localizer = peers.find(estimate.peer);
+      if (estimate.state != PoseState::kConfirmed || localizer == peers.end()) continue;
+      const auto there = localizer->second.placeAt(stamp, estimate);
+      if (!there || (*there - place).norm() >= least) continue;
+      least = (*there - place).norm();
+      nearest = estimate.peer;
+    }
+    return nearest;
+  });
+}
+
 std::vector<PeerEstimate> RelativeLocalization::Core::step(double now) {
   own.forgetBefore(now - options.sight_window - 2.0);
-  const auto needs = [now](const auto& entry) { return entry.second.needsSurfaces(now); };
-  if (std::any_of(peers.begin(), peers.end(), needs)) own.refresh();
+  if (!peers.empty()) own.refresh();
   for (auto& entry : peers) entry.second.weigh(now, own.view(), knownFrame(entry.first), counters);
   searchForOne(now);
   std::map<std::string, PeerEstimate> estimates;
   for (auto& entry : peers) {
     const long demotions = counters.demotions;
-    entry.second.judge(now, own.view(), isBlocked(entry.second, now), counters);
+    entry.second.judge(now, own.view(), isBlocked(entry.second), counters);
     if (counters.demotions > demotions) {
       graph.forget(entry.first);
       solved_.erase(entry.first);
@@ -146,6 +163,7 @@ std::vector<PeerEstimate> RelativeLocalization::Core::step(double now) {
     mergeGraph(now, entry.first, entry.second);
     result.push_back(entry.second);
   }
+  nameBlobs(result);
   return result;
 }
 

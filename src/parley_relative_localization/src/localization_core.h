@@ -33,7 +33,8 @@ class RelativeLocalization::Core {
   RelativeLocalizationCounters counters;
 
  private:
-  bool isBlocked(const PeerLocalizer& one, double now) const;
+  bool isBlocked(const PeerLocalizer& one) const;
+  void nameBlobs(const std::vector<PeerEstimate>& estimates);
   void searchForOne(double now);
   void updateGraph(double now);
   std::optional<Pose2> knownFrame(const std::string& peer_name) const;

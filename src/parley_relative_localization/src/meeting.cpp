@@ -33,18 +33,20 @@ struct Found {
 };
 
 /// The blob where a body should be seen, nearest to the middle of what should face the lidar.
-Found findBody(const SightRecord& sight, const Footprint& footprint, const Pose2& T_scan_body, double gate, double chord_gate) {
+Found findBody(const SightRecord& sight, const MeetingSide& seen, const Pose2& T_scan_body, double gate, double chord_gate) {
   Found found;
   const Eigen::Vector2d center = T_scan_body.position();
   const bool near = std::any_of(sight.blobs.begin(), sight.blobs.end(), [&](const SightedBlob& blob) {
     return (blob.position - center).squaredNorm() < (gate + kBody) * (gate + kBody);
   });
   if (!near) return found;
-  const auto expected = viewOfBody(footprint, T_scan_body);
+  const auto expected = viewOfBody(seen.footprint, T_scan_body);
   if (!expected) return found;
   found.expected = *expected;
   double least = gate;
-  for (const SightedBlob& blob : sight.blobs) {
+  for (std::size_t i = 0; i < sight.blobs.size(); ++i) {
+    if (sight.isOfAnother(i, seen.name)) continue;
+    const SightedBlob& blob = sight.blobs[i];
     const double distance = (blob.position - expected->position).norm();
     if (distance < least && std::abs(blob.chord - expected->chord) < chord_gate) {
       least = distance;
@@ -92,7 +94,7 @@ SightTerms agreeingSights(const MeetingSide& own, const MeetingSide& peer, const
     const auto motion = peer.motion.at(sight.stamp + pose.time_offset);
     if (!motion) continue;
     const Pose2 T_scan_body = sight.T_odom_scan.inverse() * T * motion->pose;
-    const Found found = findBody(sight, peer.footprint, T_scan_body, gate, options.chord_gate);
+    const Found found = findBody(sight, peer, T_scan_body, gate, options.chord_gate);
     if (found.blob != nullptr) {
       const Eigen::Vector2d error = turned(sight.T_odom_scan.yaw, found.expected.position - found.blob->position);
       result.terms.push_back({true, sight.stamp, combined(options.sight_noise, motion->deviation),
@@ -108,7 +110,7 @@ SightTerms agreeingSights(const MeetingSide& own, const MeetingSide& peer, const
     const auto motion = own.motion.at(sight.stamp - pose.time_offset);
     if (!motion) continue;
     const Pose2 T_scan_body = sight.T_odom_scan.inverse() * T_back * motion->pose;
-    const Found found = findBody(sight, own.footprint, T_scan_body, gate, options.chord_gate);
+    const Found found = findBody(sight, own, T_scan_body, gate, options.chord_gate);
     if (found.blob != nullptr) {
       const Eigen::Vector2d error = turned(T.yaw + sight.T_odom_scan.yaw, found.blob->position - found.expected.position);
       result.terms.push_back({false, sight.stamp - pose.time_offset, combined(options.sight_noise, motion->deviation),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <string>
 #include <vector>
 
 #include "body_view.h"
@@ -18,10 +19,17 @@ struct SightRecord {
   std::vector<SightedBlob> blobs;
   PolarScan scan;
   bool has_scan = false;
+  std::vector<std::string> owners;  // of each blob the known robot that was there then; empty: nobody known
+
+  /// That blob is a known robot, but not this one.
+  bool isOfAnother(std::size_t blob, const std::string& robot) const {
+    return blob < owners.size() && !owners[blob].empty() && owners[blob] != robot;
+  }
 };
 
 /// One robot's side of a meeting: how it moved and what it saw.
 struct MeetingSide {
+  std::string name;
   Footprint footprint;
   MotionHistory motion;
   std::deque<SightRecord> sights;
@@ -54,7 +62,8 @@ struct SightTerms {
   int contradictions_in_row = 0;  // [-] own scans from the newest one back, with nothing else in between
 };
 
-/// Looks in each side's sightings for the other robot where the pose says it should be, up to `gate` [m] off.
+/// Looks in each side's sightings for the other robot where the pose says it should be, up to `gate` [m] off. What is known
+/// to be a third robot is not the peer.
 SightTerms agreeingSights(const MeetingSide& own, const MeetingSide& peer, const MeetingPose& pose, double gate,
                           const RelativeLocalizationOptions& options);
 

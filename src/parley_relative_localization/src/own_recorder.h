@@ -19,6 +19,14 @@ class OwnRecorder {
   /// Brings the submap up to date with the newest scan.
   void refresh();
   void forgetBefore(double stamp);
+  /// Says of each blob which known robot it is: name_of(stamp, place in odom) [s] [m], empty if none.
+  template <class NameOf>
+  void nameBlobs(const NameOf& name_of) {
+    for (SightRecord& sight : view_.side.sights) {
+      sight.owners.clear();
+      for (const SightedBlob& blob : sight.blobs) sight.owners.push_back(name_of(sight.stamp, sight.T_odom_scan * blob.position));
+    }
+  }
 
   const OwnView& view() const { return view_; }
   /// The newest ones, newest first.

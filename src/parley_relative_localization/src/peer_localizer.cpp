@@ -12,6 +12,7 @@ namespace {
 constexpr double kWeighPeriod = 0.2;        // [s] own scans alone are reason enough after this time
 constexpr double kConfirmedPeriod = 0.4;    // [s] a confirmed pose is weighed no more often
 constexpr double kTentativeMemory = 30.0;   // [s] without new evidence, what is not confirmed is forgotten
+constexpr double kClaimStays = 1.0;         // [s] after the last sighting a place is still claimed
 constexpr double kBlindFactor = 2.0;        // [-] where surfaces say nothing, sightings must say so much more
 constexpr double kReason = 16.0;            // [-] squared deviations that a held pose is moved by at most
 constexpr int kMostChecks = 3;              // [-] hypotheses whose surfaces are compared at a time
@@ -21,7 +22,9 @@ constexpr double kSearchedRotation = 0.03;  // [rad]
 }  // namespace
 
 PeerLocalizer::PeerLocalizer(const RelativeLocalizationOptions& options, std::string name)
-    : options_(options), name_(std::move(name)), hypotheses_(options) {}
+    : options_(options), name_(std::move(name)), hypotheses_(options) {
+  side_.name = name_;
+}
 
 void PeerLocalizer::addMotion(const MotionReport& motion) {
   side_.footprint = motion.footprint;
@@ -60,12 +63,8 @@ void PeerLocalizer::addKeyframe(int id, double stamp, const Pose2& T_odom_scan, 
 
 bool PeerLocalizer::isDue(double now) const {
   const double since = now - last_weighed_;
-  if (state_ == PoseState::kConfirmed) return since >= kConfirmedPeriod;
+  if (state_ == PoseState::kConfirmed && since < kConfirmedPeriod) return false;
   return changed_ || since >= kWeighPeriod;
-}
-
-bool PeerLocalizer::needsSurfaces(double now) const {
-  return isDue(now) && surfaces_ && !hypotheses_.empty() && hypotheses_.best().fit.isMutual(1, 1);
 }
 
 void PeerLocalizer::weigh(double now, const OwnView& own, const std::optional<Pose2>& known,
@@ -223,11 +222,22 @@ PeerEstimate PeerLocalizer::estimate(double now, const OwnView& own) const {
   return result;
 }
 
-std::optional<PeerLocalizer::Claim> PeerLocalizer::claim(double now) const {
+std::optional<Eigen::Vector2d> PeerLocalizer::placeAt(double stamp, const PeerEstimate& estimate) const {
+  const auto motion = side_.motion.at(stamp + estimate.time_offset);
+  if (!motion) return std::nullopt;
+  return estimate.T_odom_peerodom.pose * motion->pose.position();
+}
+
+std::optional<double> PeerLocalizer::lastEvidence() const {
+  if (hypotheses_.empty() || !hypotheses_.best().fit.isMutual(2, 1)) return std::nullopt;
+  return hypotheses_.best().fit.last;
+}
+
+std::optional<PeerLocalizer::Claim> PeerLocalizer::claim(double at) const {
   if (hypotheses_.empty() || !hypotheses_.best().fit.isMutual(2, 1)) return std::nullopt;
   const SightFit& fit = hypotheses_.best().fit;
-  const auto motion = side_.motion.at(std::min(now, fit.last) + fit.pose.time_offset);
-  if (!motion || now - fit.last > 1.0) return std::nullopt;
+  const auto motion = side_.motion.at(std::min(at, fit.last) + fit.pose.time_offset);
+  if (!motion || at < fit.first || at > fit.last + kClaimStays) return std::nullopt;
   return Claim{fit.pose.T_odom_peerodom * motion->pose.position(), fit.score(), state_ == PoseState::kConfirmed};
 }
 

@@ -40,8 +40,6 @@ class PeerLocalizer {
   void addSights(const SightReport& report);
   void addKeyframe(int id, double stamp, const Pose2& T_odom_scan, const PolarScan& scan);
 
-  /// Whether weigh() would look at this robot's newest surfaces.
-  bool needsSurfaces(double now) const;
   /// Weighs hypotheses if there is something new. `known`: what others' measurements say of the peer's odom frame.
   void weigh(double now, const OwnView& own, const std::optional<Pose2>& known, RelativeLocalizationCounters& counters);
   /// Moves between the states; `blocked` if another peer claims the same place.
@@ -50,13 +48,16 @@ class PeerLocalizer {
   const std::string& name() const { return name_; }
   PoseState state() const { return state_; }
   PeerEstimate estimate(double now, const OwnView& own) const;
-  /// Where the peer is now if its best hypothesis is right, with that hypothesis' support; nullopt without mutual support.
+  /// Where the peer was `at` a time of the own clock [s] if its best hypothesis is right, with that hypothesis' support;
+  /// nullopt without mutual support about then.
   struct Claim {
     Eigen::Vector2d place;  // [m] own odom
     int score = 0;          // [-]
     bool confirmed = false;
   };
-  std::optional<Claim> claim(double now) const;
+  std::optional<Claim> claim(double at) const;
+  /// When its best hypothesis was last supported. [s] own clock
+  std::optional<double> lastEvidence() const;
   /// The measured pose to hand on, once confirmed.
   std::optional<RelativeEdge> edge(const std::string& own_name, const OwnView& own) const;
 
@@ -65,6 +66,8 @@ class PeerLocalizer {
   double lastSearch() const { return last_search_; }
   void setSearched(double now, const std::optional<Pose2>& found, const OwnView& own);
   double travel() const { return travel_; }
+  /// Where the peer was at `stamp` [s] of the own clock if `estimate` is right; nullopt if it did not say. [m] own odom
+  std::optional<Eigen::Vector2d> placeAt(double stamp, const PeerEstimate& estimate) const;
 
  private:
   bool isDue(double now) const;

@@ -7,7 +7,7 @@ namespace parley {
 struct PlannerOptions {
   // Path
   double look_ahead = 4.5;          // [m]
-  double comfort_distance = 0.50;   // [m]
+  double comfort_distance = 0.70;   // [m]
   double clearance_weight = 3.0;    // [-]
   double unknown_cost = 1.5;        // [-]
   double keep_path_discount = 0.9;  // [-]
@@ -34,7 +34,7 @@ struct PlannerOptions {
   bool sight_law = true;
   double sight_reaction_time = 0.2;   // [s]
   double sight_intruder_speed = 2.0;  // [m/s]
-  double sight_clearance = 0.5;       // [m]
+  double sight_clearance = 0.7;       // [m]
   double sight_least_speed = 0.4;     // [m/s]
 
   // Getting unstuck
