@@ -105,7 +105,8 @@ void Planner::Pipeline::lookForRoom(const Eigen::Vector2d& here) {
            surroundings_.obstacles().at(here + 0.5 * offset) >= footprint_.inscribedRadius();
   };
   bool found = !room_ || isRoomy({0.0, 0.0});
-  for (int i = 0; i < 8 && !found; ++i) found = isRoomy(kRoomReach * Eigen::Rotation2Dd(0.25 * i * kPi).toRotationMatrix().col(0));
+  for (int i = 0; i < 8 && !found; ++i)
+    found = isRoomy(kRoomReach * Eigen::Rotation2Dd(0.25 * i * kPi).toRotationMatrix().col(0));
   if (found) room_ = here;
 }
 

@@ -15,7 +15,7 @@ namespace parley {
 struct SightLawOptions {
   double intruder_speed = 2.0;      // [m/s] of what nobody has seen
   double intruder_radius = 0.2;     // [m] of the smallest disc in one
-  double intruder_clearance = 0.5;  // [m] of its middle from walls: it too keeps away from blind corners
+  double intruder_clearance = 0.6;  // [m] of its middle from walls: it too keeps away from blind corners
   double reaction_time = 0.2;       // [s] from first sight to braking, either robot
   double contact_distance = 0.7;    // [m] between the middles of two robots that touch
   double least_speed = 0.4;         // [m/s] never slower: it would not help, and the robot must get on

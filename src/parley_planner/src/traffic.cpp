@@ -15,6 +15,7 @@ constexpr double kTrackReach = 0.9;   // [m] a track so near to where a peer sho
 constexpr double kTrackMiss = 0.45;   // [m] and contradicts it if it is further off
 constexpr int kSureTrack = 4;         // [-] scans
 constexpr double kBodyGrowth = 0.15;  // [m] returns so far outside a peer's footprint are its own
+constexpr int kDeepest = 15;          // [-] through so many robots a right of way is lent
 constexpr double kLentFor = 0.6;      // [s] a right of way is kept after it was last needed
 constexpr double kNoRoomFor = 1.0;    // [s] without anywhere to make room a robot is shut in,
 constexpr double kNoRoomBreak = 0.5;  // [s] with breaks shorter than this,
@@ -169,7 +170,8 @@ TrafficDecision Traffic::decide(const Path& way, const RightOfWay& own, const Tr
   for (const PeerTube& tube : tubes_) {
     const double clear = clearOf(footprint_, tube.footprint);
     if (const auto near = meetingOf(way, tube, clear + kAside); near && near->head_on) decision.opposite.push_back(tube);
-    if (!goesBefore(tube.right, decision.right)) continue;
+    const bool pushed_by_this = tube.right.holder == own.holder;
+    if (pushed_by_this || !goesBefore(tube.right, decision.right)) continue;
     const auto meeting = meetingOf(way, tube, clear);
     // Who has nothing to do any more does not go in front of others either.
     const bool is_in = isIn(tube, state.pose);
@@ -186,7 +188,8 @@ TrafficDecision Traffic::decide(const Path& way, const RightOfWay& own, const Tr
   }
   if (!decision.in_the_way) return decision;
   for (const PeerTube& tube : decision.first) {
-    const RightOfWay lent{tube.right.priority, tube.right.holder, std::min(tube.right.depth + 1, 15)};
+    if (tube.right.depth >= kDeepest) continue;  // what goes round in circles without its holder dies out
+    const RightOfWay lent{tube.right.priority, tube.right.holder, tube.right.depth + 1};
     if (now >= lent_until_ || goesBefore(lent, lent_)) lent_ = lent;
     lent_until_ = now + kLentFor;
   }

@@ -51,6 +51,17 @@ TEST(PathFollower, DrivesFastAndWithinLimits) {
   EXPECT_LT(drive.points.back().time - 1.0, 4.2);  // 4.0 s is the least
 }
 
+TEST(PathFollower, DoesNotStandForLong) {
+  // The path asks for speed, the limits allow none: nothing is gained by waiting.
+  const ReferencePath path = line(6.0);
+  SpeedProfile profile(path, robotLimits());
+  profile.spread();
+  MotionLimits none = robotLimits();
+  none.speed = none.acceleration = 0.0;
+  const PathDrive drive = followPath(path, profile, {1.0, {2.0, 5.0, 0.0}, {}}, false, none, kStep);
+  EXPECT_LT(drive.points.back().time, 1.5);
+}
+
 TEST(PathFollower, RandomStartsObeyLimitsAndConverge) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);

@@ -133,6 +133,33 @@ TEST_F(TrafficTest, WithNowhereToGoARobotGoesFirstAfterAWhileUntilItIsOut) {
   EXPECT_FALSE(traffic_.isShutIn(5.0, here));
 }
 
+TEST_F(TrafficTest, WhoFollowsOneThatIsStuckGivesItRoomToTurn) {
+  const std::vector<PeerMotion> ahead = {peer(9, {3.7, 5.0, kPi}, {8.0, 5.0})};  // 0.7 m ahead, looks the other way
+  const Path wish = way(3.0, 5.0, 8.0, 5.0);
+  observe(&traffic_, ahead, 0.0);
+  EXPECT_FALSE(decide(&traffic_, wish, {1.0, 5, 0}, 0.0, 0.0).in_the_way);
+  std::vector<PeerMotion> later = ahead;
+  later[0].heard = 2.5;
+  observe(&traffic_, later, 2.5);
+  EXPECT_TRUE(decide(&traffic_, wish, {1.0, 5, 0}, 0.0, 2.5).in_the_way);
+}
+
+TEST_F(TrafficTest, ARightOfWayThatGoesRoundInCirclesDiesOut) {
+  PeerMotion pushing = peer(9, {4.0, 5.0, kPi}, {1.0, 5.0});
+  pushing.intent.right = {10.0, 7, 14};
+  observe(&traffic_, {pushing});
+  EXPECT_EQ(decide(&traffic_, way(3.0, 5.0, 8.0, 5.0), {1.0, 5, 0}, 0.0, 0.0).right.depth, 15);
+  pushing.intent.right.depth = 15;
+  traffic_.reset();
+  observe(&traffic_, {pushing});
+  EXPECT_EQ(decide(&traffic_, way(3.0, 5.0, 8.0, 5.0), {1.0, 5, 0}, 0.0, 0.0).right.depth, 0);
+  // Nor does a robot make room for one that it pushes itself.
+  pushing.intent.right = {10.0, 5, 1};
+  traffic_.reset();
+  observe(&traffic_, {pushing});
+  EXPECT_TRUE(decide(&traffic_, way(3.0, 5.0, 8.0, 5.0), {1.0, 5, 0}, 0.0, 0.0).first.empty());
+}
+
 TEST_F(TrafficTest, WhatThePeerCoversIsNoObstacleUnlessItIsElsewhere) {
   scan_.ranges[360] = 1.6F;  // ahead: the near end of a peer 2 m off
   TrackedObject track;

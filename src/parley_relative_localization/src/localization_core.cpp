@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kSamePlace = 0.6;    // [m] two robots are never nearer to each other than this
 constexpr double kBody = 0.45;        // [m] a robot's visible middle is at most so far from its centre
+constexpr double kDoubtful = 3.0;     // [s] after another claimed the same place, a peer is not confirmed there
 constexpr double kSolvePeriod = 0.5;  // [s]
 
 /// Larger of the deviations of the peer's place near this robot. [m]
@@ -51,6 +52,7 @@ void RelativeLocalization::Core::forget(const std::string& peer_name) {
   graph.forget(peer_name);
   solved_.erase(peer_name);
   demoted_.erase(peer_name);
+  blocked_until_.erase(peer_name);
 }
 
 /// Another peer claims the place where this one was last seen, and is not much worse supported.
@@ -148,7 +150,9 @@ std::vector<PeerEstimate> RelativeLocalization::Core::step(double now) {
   std::map<std::string, PeerEstimate> estimates;
   for (auto& entry : peers) {
     const long demotions = counters.demotions;
-    entry.second.judge(now, own.view(), isBlocked(entry.second), counters);
+    if (isBlocked(entry.second)) blocked_until_[entry.first] = now + kDoubtful;
+    const auto blocked = blocked_until_.find(entry.first);
+    entry.second.judge(now, own.view(), blocked != blocked_until_.end() && now < blocked->second, counters);
     if (counters.demotions > demotions) {
       graph.forget(entry.first);
       solved_.erase(entry.first);

@@ -41,10 +41,11 @@ class RelativeLocalization::Core {
   void mergeGraph(double now, const std::string& peer_name, PeerEstimate& estimate) const;
 
   std::map<std::string, GraphEstimate> solved_;
-  std::map<std::string, double> demoted_;  // [s] when a peer's pose was last contradicted
-  double solved_travel_ = 0.0;             // [m] own odometer then
-  double last_solved_ = -1e18;             // [s]
-  double last_search_ = -1e18;             // [s]
+  std::map<std::string, double> demoted_;        // [s] when a peer's pose was last contradicted
+  std::map<std::string, double> blocked_until_;  // [s]
+  double solved_travel_ = 0.0;                   // [m] own odometer then
+  double last_solved_ = -1e18;                   // [s]
+  double last_search_ = -1e18;                   // [s]
 };
 
 }  // namespace parley

@@ -112,6 +112,33 @@ TEST(Encounter, robotsInTheSameKindOfRoomElsewhereAreNot) {
   }
 }
 
+TEST(Encounter, twinsInTheSameKindOfRoomAreNotTakenForOneAnother) {
+  std::vector<test::WallSegment> walls = test::distinctiveRoom();
+  const Eigen::Vector2d far(30.0, 0.0);
+  for (const test::WallSegment& wall : test::distinctiveRoom()) walls.push_back({wall.a + far, wall.b + far});
+  Stage stage(test::segmentWorld(walls));
+  stage.reserve(4);
+  for (const char* name : {"a", "b"}) stage.add(name, name[0] == 'a' ? Pose2{2.5, 2.8, 0.1} : Pose2{6.0, 3.4, 3.1});
+  for (const char* name : {"c", "d"}) stage.add(name, name[0] == 'c' ? Pose2{32.5, 2.8, 0.1} : Pose2{36.0, 3.4, 3.1});
+  stage.links = {{0, 1}, {1, 0}};
+  int confirmed = 0;
+  for (int step = 0; step < 120; ++step) {
+    // In circles, in step with the twins; after three seconds everybody hears everybody.
+    for (std::size_t i = 0; i < 4; ++i) stage.actor(i).twist = {i % 2 == 0 ? 0.6 : 0.7, 0.8};
+    if (step == 30) stage.links.clear();
+    stage.step();
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = 0; j < 4; ++j) {
+        if (i == j || stage.estimate(i, std::string(1, static_cast<char>('a' + j))).state != PoseState::kConfirmed) continue;
+        SCOPED_TRACE(testing::Message() << i << " of " << j << " at step " << step);
+        expectRight(stage, i, j);
+        ++confirmed;
+      }
+    }
+  }
+  EXPECT_GT(confirmed, 100);
+}
+
 TEST(Encounter, aWrongClockIsEstimated) {
   for (const double offset : {-0.2, -0.1, 0.1, 0.2}) {
     Stage stage = roomMeeting();

@@ -16,7 +16,7 @@ namespace parley {
 /// among many one goes before all. A robot that has to leave its place for another does so with that one's right of way:
 /// who stands behind it makes room in turn (priority inheritance).
 struct RightOfWay {
-  double priority = 0.0;     // [-] 0: has arrived, 1: is on its way
+  double priority = 0.0;     // [-] 0: has arrived, 1 to 5: is on its way, 10: is shut in
   std::uint32_t holder = 0;  // number of the robot whose right of way it is
   int depth = 0;             // [-] 0: its own; one more for each robot that makes room for another in between
 };

@@ -34,7 +34,7 @@ struct PlannerOptions {
   bool sight_law = true;
   double sight_reaction_time = 0.2;   // [s]
   double sight_intruder_speed = 2.0;  // [m/s]
-  double sight_clearance = 0.7;       // [m]
+  double sight_clearance = 0.6;       // [m]
   double sight_least_speed = 0.4;     // [m/s]
 
   // Getting unstuck
