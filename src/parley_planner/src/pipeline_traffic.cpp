@@ -128,9 +128,7 @@ Path Planner::Pipeline::desiredWay(const TrajectoryPoint& start) const {
 
 /// What it wished at the last plan, or the route if there was nobody to wish it for then.
 Path Planner::Pipeline::expectedWay(const PlanRequest& request) const {
-  if (request.now - desired_at_ < kWishStays) {
-    return path_.size() > 1 ? wayFrom(path_, request.odometry.pose.position(), kTellReach) : desired_;
-  }
+  if (request.now - desired_at_ < kWishStays) return desired_;
   return wayFrom(route_.points, request.odometry.pose.position(), kTellReach);
 }
 
