@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "global_search.h"
@@ -11,7 +12,8 @@ namespace parley {
 namespace {
 
 constexpr double kSamePlace = 0.6;    // [m] two robots are never nearer to each other than this
-constexpr double kBody = 0.45;        // [m] a robot's visible middle is at most so far from its centre
+constexpr double kOverlap = 0.35;     // [m] and never at all so near
+constexpr double kOverlapStep = 0.2;  // [s]
 constexpr double kDoubtful = 3.0;     // [s] after another claimed the same place, a peer is not confirmed there
 constexpr double kSolvePeriod = 0.5;  // [s]
 
@@ -49,22 +51,48 @@ void RelativeLocalization::Core::addEdge(const RelativeEdge& edge) {
 
 void RelativeLocalization::Core::forget(const std::string& peer_name) {
   peers.erase(peer_name);
+  known_.clear();  // named anew at the next step
   graph.forget(peer_name);
   solved_.erase(peer_name);
   demoted_.erase(peer_name);
   blocked_until_.erase(peer_name);
 }
 
-/// Another peer claims the place where this one was last seen, and is not much worse supported.
+/// Another peer claims the place where this one was last seen, and is not much worse supported; or a confirmed one was where
+/// this one would have been.
 bool RelativeLocalization::Core::isBlocked(const PeerLocalizer& one) const {
-  const auto seen_at = one.lastEvidence();
-  const auto wanted = seen_at ? one.claim(*seen_at) : std::nullopt;
+  const SightFit* fit = one.evidence();
+  const auto wanted = fit == nullptr ? std::nullopt : one.claim(fit->last);
   if (!wanted) return false;
-  return std::any_of(peers.begin(), peers.end(), [&](const auto& entry) {
-    const auto other = entry.first == one.name() ? std::nullopt : entry.second.claim(*seen_at);
+  const bool is_claimed = std::any_of(peers.begin(), peers.end(), [&](const auto& entry) {
+    const auto other = entry.first == one.name() ? std::nullopt : entry.second.claim(fit->last);
     return other && (other->place - wanted->place).norm() < kSamePlace &&
            (other->confirmed || other->score > options.rival_share * wanted->score);
   });
+  return is_claimed || overlapsKnown(one, *fit);
+}
+
+bool RelativeLocalization::Core::overlapsKnown(const PeerLocalizer& one, const SightFit& fit) const {
+  for (double stamp = fit.first; stamp <= fit.last; stamp += kOverlapStep) {
+    const auto place = one.placeAt(stamp, fit.pose);
+    if (!place) continue;
+    const std::string known = whoWasAt(stamp, *place, kOverlap);
+    if (!known.empty() && known != one.name()) return true;
+  }
+  return false;
+}
+
+/// The confirmed peer nearest to a place [m] in own odom at a time of the own clock [s], `reach` [m] at most; empty if none.
+std::string RelativeLocalization::Core::whoWasAt(double stamp, const Eigen::Vector2d& place, double reach) const {
+  std::string nearest;
+  double least = reach;
+  for (const PeerEstimate& estimate : known_) {
+    const auto there = peers.at(estimate.peer).placeAt(stamp, {estimate.T_odom_peerodom.pose, estimate.time_offset});
+    if (!there || (*there - place).norm() >= least) continue;
+    least = (*there - place).norm();
+    nearest = estimate.peer;
+  }
+  return nearest;
 }
 
 /// One global search at a time, for the peer that has waited longest.
@@ -127,19 +155,11 @@ void RelativeLocalization::Core::mergeGraph(double now, const std::string& peer_
 /// What is seen where a confirmed peer is, is that peer and no other. Robots that start alike in a building that is alike on
 /// both sides are taken for each other otherwise.
 void RelativeLocalization::Core::nameBlobs(const std::vector<PeerEstimate>& estimates) {
-  own.nameBlobs([&](double stamp, const Eigen::Vector2d& place) {
-    std::string nearest;
-    double least = kBody;
-    for (const PeerEstimate& estimate : estimates) {
-      const auto localizer = peers.find(estimate.peer);
-      if (estimate.state != PoseState::kConfirmed || localizer == peers.end()) continue;
-      const auto there = localizer->second.placeAt(stamp, estimate);
-      if (!there || (*there - place).norm() >= least) continue;
-      least = (*there - place).norm();
-      nearest = estimate.peer;
-    }
-    return nearest;
+  known_.clear();
+  std::copy_if(estimates.begin(), estimates.end(), std::back_inserter(known_), [&](const PeerEstimate& estimate) {
+    return estimate.state == PoseState::kConfirmed && peers.count(estimate.peer) > 0;
   });
+  own.nameBlobs([&](double stamp, const Eigen::Vector2d& place) { return whoWasAt(stamp, place, kBody); });
 }
 
 std::vector<PeerEstimate> RelativeLocalization::Core::step(double now) {

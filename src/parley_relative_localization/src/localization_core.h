@@ -34,6 +34,8 @@ class RelativeLocalization::Core {
 
  private:
   bool isBlocked(const PeerLocalizer& one) const;
+  bool overlapsKnown(const PeerLocalizer& one, const SightFit& fit) const;
+  std::string whoWasAt(double stamp, const Eigen::Vector2d& place, double reach) const;
   void nameBlobs(const std::vector<PeerEstimate>& estimates);
   void searchForOne(double now);
   void updateGraph(double now);
@@ -42,6 +44,7 @@ class RelativeLocalization::Core {
 
   std::map<std::string, GraphEstimate> solved_;
   std::map<std::string, double> demoted_;        // [s] when a peer's pose was last contradicted
+  std::vector<PeerEstimate> known_;              // confirmed at the last step
   std::map<std::string, double> blocked_until_;  // [s]
   double solved_travel_ = 0.0;                   // [m] own odometer then
   double last_solved_ = -1e18;                   // [s]

@@ -8,7 +8,6 @@
 namespace parley {
 namespace {
 
-constexpr double kBody = 0.45;        // [m] a robot's visible middle is at most this far from its centre
 constexpr double kBehind = 0.5;       // [m] a scan that goes on this far behind a robot's centre saw through it
 constexpr double kLeastRange = 0.4;   // [m] nearer robots are no blobs
 constexpr double kSureMotion = 0.12;  // [m] motion less sure than this contradicts nothing

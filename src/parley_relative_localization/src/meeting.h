@@ -12,6 +12,8 @@
 
 namespace parley {
 
+constexpr double kBody = 0.45;  // [m] a robot's visible middle is at most this far from its centre
+
 /// The blobs of one scan. `scan` has its free space too, if that is known.
 struct SightRecord {
   double stamp = 0.0;  // [s] of the viewer's clock

@@ -14,6 +14,7 @@ constexpr double kConfirmedPeriod = 0.4;    // [s] a confirmed pose is weighed n
 constexpr double kTentativeMemory = 30.0;   // [s] without new evidence, what is not confirmed is forgotten
 constexpr double kClaimStays = 1.0;         // [s] after the last sighting a place is still claimed
 constexpr double kBlindFactor = 2.0;        // [-] where surfaces say nothing, sightings must say so much more
+constexpr double kBlindResidual = 0.7;      // [-] and leave so small a share of the residuals
 constexpr double kReason = 16.0;            // [-] squared deviations that a held pose is moved by at most
 constexpr int kMostChecks = 3;              // [-] hypotheses whose surfaces are compared at a time
 constexpr double kSearchedDeviation = 0.1;  // [m] of a pose that surfaces alone gave
@@ -117,7 +118,8 @@ bool PeerLocalizer::isGood(const SightFit& fit) const {
 bool PeerLocalizer::isConfirmable(const SightFit& fit) const {
   if (!isGood(fit) || !fit.isMutual(options_.confirm_own_sights, options_.confirm_peer_sights)) return false;
   if (fit.span() < options_.confirm_span) return false;
-  if (hypotheses_.hasRival() || !verdict_.asked) return false;
+  if (hypotheses_.hasRival() || !verdict_.asked || verdict_.objects) return false;
+  if (!verdict_.agrees && fit.residual > kBlindResidual * options_.confirm_residual) return false;
   const double factor = verdict_.agrees ? (verdict_.observed ? 0.5 : 1.0) : kBlindFactor;
   return fit.travel >= options_.confirm_travel && fit.distinction >= options_.confirm_distinction * factor;
 }
@@ -222,23 +224,22 @@ PeerEstimate PeerLocalizer::estimate(double now, const OwnView& own) const {
   return result;
 }
 
-std::optional<Eigen::Vector2d> PeerLocalizer::placeAt(double stamp, const PeerEstimate& estimate) const {
-  const auto motion = side_.motion.at(stamp + estimate.time_offset);
+std::optional<Eigen::Vector2d> PeerLocalizer::placeAt(double stamp, const MeetingPose& pose) const {
+  const auto motion = side_.motion.at(stamp + pose.time_offset);
   if (!motion) return std::nullopt;
-  return estimate.T_odom_peerodom.pose * motion->pose.position();
+  return pose.T_odom_peerodom * motion->pose.position();
 }
 
-std::optional<double> PeerLocalizer::lastEvidence() const {
-  if (hypotheses_.empty() || !hypotheses_.best().fit.isMutual(2, 1)) return std::nullopt;
-  return hypotheses_.best().fit.last;
+const SightFit* PeerLocalizer::evidence() const {
+  return hypotheses_.empty() || !hypotheses_.best().fit.isMutual(2, 1) ? nullptr : &hypotheses_.best().fit;
 }
 
 std::optional<PeerLocalizer::Claim> PeerLocalizer::claim(double at) const {
-  if (hypotheses_.empty() || !hypotheses_.best().fit.isMutual(2, 1)) return std::nullopt;
-  const SightFit& fit = hypotheses_.best().fit;
-  const auto motion = side_.motion.at(std::min(at, fit.last) + fit.pose.time_offset);
-  if (!motion || at < fit.first || at > fit.last + kClaimStays) return std::nullopt;
-  return Claim{fit.pose.T_odom_peerodom * motion->pose.position(), fit.score(), state_ == PoseState::kConfirmed};
+  const SightFit* fit = evidence();
+  if (fit == nullptr || at < fit->first || at > fit->last + kClaimStays) return std::nullopt;
+  const auto place = placeAt(std::min(at, fit->last), fit->pose);
+  if (!place) return std::nullopt;
+  return Claim{*place, fit->score(), state_ == PoseState::kConfirmed};
 }
 
 std::shared_ptr<const SurfaceMap> PeerLocalizer::surfacesToSearch(const OwnView& own) const {

@@ -56,8 +56,8 @@ class PeerLocalizer {
     bool confirmed = false;
   };
   std::optional<Claim> claim(double at) const;
-  /// When its best hypothesis was last supported. [s] own clock
-  std::optional<double> lastEvidence() const;
+  /// What speaks for its best hypothesis; null without mutual support.
+  const SightFit* evidence() const;
   /// The measured pose to hand on, once confirmed.
   std::optional<RelativeEdge> edge(const std::string& own_name, const OwnView& own) const;
 
@@ -66,8 +66,8 @@ class PeerLocalizer {
   double lastSearch() const { return last_search_; }
   void setSearched(double now, const std::optional<Pose2>& found, const OwnView& own);
   double travel() const { return travel_; }
-  /// Where the peer was at `stamp` [s] of the own clock if `estimate` is right; nullopt if it did not say. [m] own odom
-  std::optional<Eigen::Vector2d> placeAt(double stamp, const PeerEstimate& estimate) const;
+  /// Where the peer was at `stamp` [s] of the own clock if `pose` is right; nullopt if it did not say. [m] own odom
+  std::optional<Eigen::Vector2d> placeAt(double stamp, const MeetingPose& pose) const;
 
  private:
   bool isDue(double now) const;

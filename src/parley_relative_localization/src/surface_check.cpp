@@ -34,6 +34,7 @@ SurfaceVerdict checkSurfaces(const SurfaceMap& own, const SurfaceMap& peer, cons
   const Eigen::Vector3d step = stepBetween(pose.pose, refined, pose.center);
   verdict.agrees = match.converged && vote.matches >= options.matches_mutual && vote.violationShare() <= options.max_violations &&
                    step.head<2>().norm() < kFarthest && std::abs(step.z()) < kFarthestTurn;
+  verdict.objects = !verdict.agrees && vote.votes() >= kFewestVotes;
   if (!verdict.agrees) return verdict;
   verdict.observed = match.observability.share >= options.min_observability;
   verdict.estimate = match.estimate;

@@ -21,6 +21,7 @@ struct SurfaceVerdict {
   bool asked = false;        // there was something to ask
   bool agrees = false;       // enough matches, hardly any violation, and the refined pose is near the one asked about
   bool contradicts = false;  // one side looked through the other's walls
+  bool objects = false;      // enough points to say, and they do not agree
   bool observed = false;     // in every direction
   PoseInformation estimate;  // refined; without information in a direction not observed
   FreeSpaceVote vote;
