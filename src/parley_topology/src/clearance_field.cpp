@@ -99,8 +99,9 @@ void fuse(TiledMap& map, const CellRect& rect, const FieldShape& shape) {
     looked = timesLooked(map, rect, static_cast<int>(std::lround(shape.layer_distance / map.resolution())));
     near_own = nearOwn(map, rect);
   }
+  const int doubted = map.doubted();
   const auto ownWord = [&](const Tile& tile, std::size_t i, int row, int column) {
-    if (!tile.layers) return true;
+    if (!tile.layers || tile.layers->told[i] < doubted) return true;
     if (looked(row, column) == 0) return false;
     return near_own(row, column) || tile.layers->told[i] <= looked(row, column) + kNewer;
   };

@@ -13,6 +13,7 @@ struct Voting {
     if (mark == kClear) return std::max(-limit, evidence - clear);
     return mark == kUnderRobot ? -limit : evidence;
   }
+  bool isSurelyFree(int evidence) const { return 2 * evidence <= -limit; }
   std::uint8_t judge(int evidence, std::uint8_t flags) const {
     if (evidence > occupied_above) return static_cast<std::uint8_t>(flags | kSeen | kOwn);
     if (evidence >= free_below && (flags & kOwn)) return flags;
@@ -47,6 +48,7 @@ void addToTile(Tile& tile, const ScanImage& image, const CellRect& part, std::ui
       const int after = voting.vote(before, mark);
       if (after == before) continue;
       tile.evidence[i] = static_cast<std::int8_t>(after);
+      if (voting.isSurelyFree(after)) tile.flags[i] = static_cast<std::uint8_t>(tile.flags[i] | kOnceFree);
       const std::uint8_t flags = voting.judge(after, tile.flags[i]);
       if (flags == tile.flags[i]) continue;
       const std::uint16_t block = blockBit(x, y);

@@ -60,6 +60,7 @@ void TiledMap::clear() {
   tiles_.clear();
   std::fill(directory_.begin(), directory_.end(), nullptr);
   saturated_ = false;
+  doubted_ = 0;
   epoch_.reset();
 }
 

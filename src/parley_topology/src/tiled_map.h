@@ -22,12 +22,13 @@ constexpr int kBlockSize = 1 << kBlockBits;  // [cells]
 
 /// Bits of what is known of a cell.
 enum CellFlag : std::uint8_t {
-  kSeen = 1,       // own sensing has looked at it
-  kOwn = 2,        // own sensing holds it occupied
-  kFused = 4,      // occupied, by own sensing or by a layer where own sensing has not looked
-  kWide = 8,       // further than the grown radius from what is occupied: contours bound this
-  kPassable = 16,  // within a cell of what is wide: edges may lead here
-  kTentative = 32  // within reach of an outline that does not block
+  kSeen = 1,        // own sensing has looked at it
+  kOwn = 2,         // own sensing holds it occupied
+  kFused = 4,       // occupied, by own sensing or by a layer where own sensing has not looked
+  kWide = 8,        // further than the grown radius from what is occupied: contours bound this
+  kPassable = 16,   // within a cell of what is wide: edges may lead here
+  kTentative = 32,  // within reach of an outline that does not block
+  kOnceFree = 64    // own sensing was sure that nothing is here, now or earlier
 };
 
 /// What holds where there is no tile: never seen, nothing near.
@@ -155,6 +156,10 @@ class TiledMap {
   /// stands still.
   std::uint16_t secondsOf(double stamp);
 
+  /// Layers' outlines told until then [s of the map's clock] are not believed; 0 if all are.
+  std::uint16_t doubted() const { return doubted_; }
+  void setDoubted(std::uint16_t second) { doubted_ = second; }
+
   /// Puts a tile on the list of changed ones, whose `changed_` masks are looked at in the next update.
   void note(Tile& tile) {
     if (!tile.noted) changed_.push_back(&tile);
@@ -179,6 +184,7 @@ class TiledMap {
   unsigned side_;
   std::size_t max_tiles_;
   bool saturated_ = false;
+  std::uint16_t doubted_ = 0;
   std::optional<double> epoch_;  // [s] when the map's clock began
   std::vector<Tile*> directory_;
   std::vector<std::unique_ptr<Tile>> tiles_;

@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+#include "doubts.h"
 #include "evidence.h"
 #include "graph_builder.h"
 #include "map_outlines.h"
@@ -56,6 +57,8 @@ struct Topology::Parts {
   LayerStore layers;
   GraphBuilder builder;
   RouteKeeper keeper;
+  Doubts doubts;
+  double newest_scan = -1e18;  // [s]
   int refused = 0;
 };
 
@@ -71,6 +74,7 @@ void Topology::integrate(const ObstacleScan& scan, const Pose2& T_odom_base) {
     ++p.refused;
     return;
   }
+  p.newest_scan = std::max(p.newest_scan, scan.stamp);
   addEvidence(p.map, drawScan(scan, T_odom_base, p.footprint, p.options.clear_margin, p.options.resolution), scan.stamp,
               p.options);
 }
@@ -119,7 +123,9 @@ Route Topology::route(const Pose2& T_odom_base, const Eigen::Vector2d& goal_odom
     return {};
   }
   const Sight sight(p.map, p.options, p.shape);
-  return p.keeper.route(p.map, p.builder.graph(), sight, T_odom_base.position(), goal_odom);
+  Route route = p.keeper.route(p.map, p.builder.graph(), sight, T_odom_base.position(), goal_odom);
+  p.doubts.consider(p.map, p.newest_scan, route.exists());
+  return route;
 }
 
 LocalMap Topology::localMap(const Eigen::Vector2d& center, double size, double stamp) const {

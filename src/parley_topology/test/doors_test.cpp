@@ -117,6 +117,63 @@ TEST(Doors, whatWasSeenShutIsForgottenWhenItIsRefuted) {
   EXPECT_FALSE(isOpen(topology));
 }
 
+/// Asked for the way again and again while a corner is looked at from which the door is not seen, once a second.
+int answersWithAWay(Topology& topology, const TestWorld& world, double begin, double end) {
+  int found = 0;
+  for (double stamp = begin; stamp < end; stamp += 1.0) {
+    ObstacleScan scan = world.scan({1.0, 1.0, 0.0}, 1.5);
+    scan.stamp = stamp;
+    topology.integrate(scan, {1.0, 1.0, 0.0});
+    topology.update();
+    found += topology.route({1.0, 1.0, 0.0}, {10.0, 3.0}).exists() ? 1 : 0;
+  }
+  return found;
+}
+
+/// The door is seen open from both sides, and then shut.
+Topology seenOpenThenShut() {
+  Topology topology({}, testFootprint());
+  look(topology, twoRooms(true), {9.0, 3.0, 0.0}, 90.0);
+  look(topology, twoRooms(true), kBeforeTheDoor, 100.0);
+  for (int i = 0; i < 3; ++i) look(topology, twoRooms(false), kBeforeTheDoor, 101.0 + i);
+  return topology;
+}
+
+TEST(Doors, whatCameIntoTheOnlyDoorIsDoubtedOutOfView) {
+  Topology topology = seenOpenThenShut();
+  ASSERT_FALSE(topology.route(kBeforeTheDoor, {10.0, 3.0}).exists());
+  EXPECT_EQ(answersWithAWay(topology, twoRooms(false), 104.0, 106.0), 0) << "not at once";
+  EXPECT_GE(answersWithAWay(topology, twoRooms(false), 106.0, 110.0), 2) << "it goes and looks";
+  for (int i = 0; i < 3; ++i) look(topology, twoRooms(false), kBeforeTheDoor, 111.0 + i);
+  EXPECT_FALSE(topology.route(kBeforeTheDoor, {10.0, 3.0}).exists()) << "it is still shut";
+}
+
+TEST(Doors, whatIsInViewIsNotDoubted) {
+  Topology topology = seenOpenThenShut();
+  for (int i = 0; i < 30; ++i) {
+    look(topology, twoRooms(false), kBeforeTheDoor, 104.0 + i);
+    ASSERT_FALSE(topology.route(kBeforeTheDoor, {10.0, 3.0}).exists()) << i;
+  }
+}
+
+TEST(Doors, aWallThatWasAlwaysThereIsNotDoubted) {
+  Topology topology({}, testFootprint());
+  look(topology, twoRooms(false), {9.0, 3.0, 0.0}, 90.0);
+  for (int i = 0; i < 3; ++i) look(topology, twoRooms(false), kBeforeTheDoor, 100.0 + i);
+  EXPECT_EQ(answersWithAWay(topology, twoRooms(false), 104.0, 140.0), 0);
+}
+
+TEST(Doors, aTeammatesWordIsDoubtedLater) {
+  Topology topology({}, testFootprint());
+  look(topology, twoRooms(true), {9.0, 3.0, 0.0}, 90.0);
+  look(topology, twoRooms(true), kBeforeTheDoor, 100.0);
+  topology.setLayer(shutDoor(150.0));
+  EXPECT_EQ(answersWithAWay(topology, twoRooms(true), 151.0, 155.0), 0);
+  EXPECT_GE(answersWithAWay(topology, twoRooms(true), 155.0, 160.0), 2);
+  topology.setLayer(shutDoor(170.0));
+  EXPECT_FALSE(isOpen(topology)) << "what is told afterwards counts";
+}
+
 }  // namespace
 }  // namespace parley
 

@@ -57,7 +57,8 @@ class Topology {
   TopologyResult update();
 
   /// The way to a goal on the graph as of the last update. Keeps to the side of obstacles it has committed to unless the
-  /// way is shut or another is much cheaper.
+  /// way is shut or another is much cheaper. While nothing leads there it takes back what may have changed unseen, from the
+  /// next update on: what came where nothing was and is out of view, then peers' outlines too.
   Route route(const Pose2& T_odom_base, const Eigen::Vector2d& goal_odom);
 
   /// A square window of `size` [m] around `center`, aligned with the map's cells.
