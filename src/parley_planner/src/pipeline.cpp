@@ -21,6 +21,8 @@ constexpr double kRouteStays = 30.0;      // [s]
 constexpr double kSoon = 0.3;             // [s]
 constexpr double kWalksThrough = 1.2;     // [s]
 constexpr double kSightSlack = 0.1;       // [m/s]
+constexpr double kSettled = 0.3;          // [s] after a trajectory's end the robot stands,
+constexpr double kRestsOff = 0.1;         // [m, rad] no further from there than this
 constexpr double kLongestForecast = 0.5;  // [s] of the measured state
 
 SightLawOptions sightLaw(const PlannerOptions& options, const Footprint& footprint) {
@@ -71,11 +73,37 @@ void Planner::Pipeline::reset() {
 PlanResult Planner::Pipeline::plan(const PlanRequest& request) {
   if (!usable(request)) return keep(PlanCode::kNoPath, "inputs are not usable");
   if (request.now < planned_at_) reset();  // time went back
+  traffic_.observe(request);
+  validator_.observe({request.map, traffic_.scan(), request.T_odom_scan, traffic_.tracks(), traffic_.peers(), intent_.right});
+  if (!hasStrayed(request)) return planFrom(request);
+  const SampledTrajectory stop = safestStop(validator_, request.committed, measuredState(request), limits_, options_.time_step);
+  const PlanRequest as_driven{request.now,
+                              request.start_time,
+                              request.odometry,
+                              request.map,
+                              request.scan,
+                              request.T_odom_scan,
+                              request.tracks,
+                              request.route,
+                              request.goal,
+                              request.goal_tolerance,
+                              stop,
+                              request.id,
+                              request.peers,
+                              request.team_known,
+                              request.at_goal};
+  busy_until_ = -1e9;
+  PlanResult result = planFrom(as_driven);
+  if (!result.keep_committed) return result;
+  result.keep_committed = false;
+  result.trajectory = stop;
+  return result;
+}
+
+PlanResult Planner::Pipeline::planFrom(const PlanRequest& request) {
   const TrajectoryPoint start = startState(request);
   if ((request.goal - goal_).norm() > 0.05) arrived_ = reached_ = false;
   goal_ = request.goal;
-  traffic_.observe(request);
-  validator_.observe({request.map, traffic_.scan(), request.T_odom_scan, traffic_.tracks(), traffic_.peers(), intent_.right});
   // What is driven already may come nearer than what is newly committed: noise alone must not stop the robot.
   const Margins least{kLeastMargin, 0.3 * options_.margin_per_speed, options_.creep_speed};
   const bool valid = validator_.checkRest(request.committed, start.time, least).good();
@@ -126,19 +154,29 @@ bool Planner::Pipeline::usable(const PlanRequest& request) const {
          request.T_odom_scan.isFinite() && request.goal.allFinite();
 }
 
-TrajectoryPoint Planner::Pipeline::startState(const PlanRequest& request) const {
+TrajectoryPoint Planner::Pipeline::measuredState(const PlanRequest& request) const {
   const Odometry& odometry = request.odometry;
   const double ahead = std::clamp(request.start_time - odometry.stamp, 0.0, kLongestForecast);
-  const TrajectoryPoint measured{
-      request.start_time, integrateTwist(odometry.pose, odometry.twist.speed, odometry.twist.turn_rate, ahead), odometry.twist};
-  if (request.committed.empty()) return measured;
+  return {request.start_time, integrateTwist(odometry.pose, odometry.twist.speed, odometry.twist.turn_rate, ahead),
+          odometry.twist};
+}
+
+TrajectoryPoint Planner::Pipeline::startState(const PlanRequest& request) const {
+  if (request.committed.empty()) return measuredState(request);
   const TrajectoryPoint intended = request.committed.at(request.start_time);
-  if (stands(intended.twist) && stands(odometry.twist)) return {request.start_time, odometry.pose, {}};
-  const Pose2 expected = request.committed.at(odometry.stamp).pose;
-  const bool started = odometry.stamp >= request.committed.startTime();
-  const bool off = (expected.position() - odometry.pose.position()).norm() > options_.largest_deviation ||
-                   std::abs(angleBetween(expected.yaw, odometry.pose.yaw)) > options_.largest_deviation;
-  return started && off ? measured : intended;
+  if (stands(intended.twist) && stands(request.odometry.twist)) return {request.start_time, request.odometry.pose, {}};
+  return intended;
+}
+
+/// The controller stopped it, or it slipped: what is committed is not what is driven, and must not be told any longer.
+bool Planner::Pipeline::hasStrayed(const PlanRequest& request) const {
+  const Odometry& odometry = request.odometry;
+  if (request.committed.empty() || odometry.stamp < request.committed.startTime()) return false;
+  const TrajectoryPoint expected = request.committed.at(odometry.stamp);
+  const bool rests = stands(expected.twist) && stands(odometry.twist) && odometry.stamp > request.committed.endTime() + kSettled;
+  const double most = rests ? std::min(kRestsOff, options_.largest_deviation) : options_.largest_deviation;
+  return (expected.pose.position() - odometry.pose.position()).norm() > most ||
+         std::abs(angleBetween(expected.pose.yaw, odometry.pose.yaw)) > most;
 }
 
 bool Planner::Pipeline::arrived(const PlanRequest& request) {

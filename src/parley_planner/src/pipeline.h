@@ -38,7 +38,10 @@ class Planner::Pipeline {
   };
 
   bool usable(const PlanRequest& request) const;
+  PlanResult planFrom(const PlanRequest& request);
+  TrajectoryPoint measuredState(const PlanRequest& request) const;
   TrajectoryPoint startState(const PlanRequest& request) const;
+  bool hasStrayed(const PlanRequest& request) const;
   bool arrived(const PlanRequest& request);
   bool mayKeep(const PlanRequest& request) const;
   bool endsAtGoal(const PlanRequest& request) const;
@@ -91,6 +94,7 @@ class Planner::Pipeline {
   Intent intent_;
   std::optional<Eigen::Vector2d> escape_;                           // [m] the escape point on the way to which it is
   std::optional<Eigen::Vector2d> room_;                             // [m] where it was when another could last have passed
+  double back_ = 0.0;                                               // [m] the furthest it has been from there since
   std::vector<std::pair<double, Eigen::Vector2d>> failed_escapes_;  // [s] until when not to be tried, [m]
   std::optional<PeerTube> stranger_;                                // that it makes room for, unheard
   double stranger_until_ = -1e9;                                    // [s]

@@ -15,11 +15,10 @@ namespace {
 constexpr double kNearPeer = 10.0;      // [m] a peer further off does not matter
 constexpr double kClosePeer = 6.0;      // [m]
 constexpr double kShutIn = 10.0;        // [-] priority of a robot that has nowhere to go
-constexpr double kLongBack = 8.0;       // [m] and as much of a way back makes it higher by kPerLongBack,
-constexpr double kPerLongBack = 0.5;    // [-] so that
-constexpr double kMostBack = 8.0;       // [-] of them are the most that count
+constexpr double kLongBack = 8.0;       // [m] of way back make the priority higher
+constexpr double kPerLongBack = 0.5;    // [-] by so much,
+constexpr double kMostBack = 8.0;       // [-] so many times at most
 constexpr double kRoomy = 0.75;         // [m] around a place where one robot can pass another
-constexpr double kRoomReach = 0.8;      // [m] so near to it, a robot is soon there
 constexpr double kWishStays = 0.35;     // [s]
 constexpr double kRest = 0.7;           // [s] at its goal before a robot makes room for others
 constexpr double kOut = 0.7;            // [m] from the place where it wanted to go, a robot is out again
@@ -80,10 +79,13 @@ bool Planner::Pipeline::isEngaged(const PlanRequest& request) const {
   });
 }
 
+/// One that is close, and not behind itself.
 bool Planner::Pipeline::isBehindPeer(const TrajectoryPoint& start) const {
+  const Eigen::Vector2d here = start.pose.position(), onward = local_goal_ - here;
   return std::any_of(traffic_.tubes().begin(), traffic_.tubes().end(), [&](const PeerTube& tube) {
-    return (tube.pose.position() - start.pose.position()).norm() <
-           footprint_.circumscribedRadius() + tube.footprint.circumscribedRadius() + kWaitingGap;
+    const Eigen::Vector2d offset = tube.pose.position() - here;
+    const double near = footprint_.circumscribedRadius() + tube.footprint.circumscribedRadius() + kWaitingGap;
+    return offset.norm() < near && offset.dot(onward) > 0.0;
   });
 }
 
@@ -93,21 +95,15 @@ RightOfWay Planner::Pipeline::ownRight(const PlanRequest& request) const {
   const Eigen::Vector2d here = request.odometry.pose.position();
   if (traffic_.isShutIn(request.now, here)) return {kShutIn, request.id, 0};
   if (reached_) return {0.0, request.id, 0};
-  const double back = room_ ? std::floor((*room_ - here).norm() / kLongBack) : 0.0;
-  return {1.0 + kPerLongBack * std::min(kMostBack, back), request.id, 0};
+  return {1.0 + kPerLongBack * std::min(kMostBack, std::floor(back_ / kLongBack)), request.id, 0};
 }
 
-/// Remembers where there was last room for two.
+/// Remembers where there was last room for two, and how far it has been from there since: what was pushed deep into a corridor
+/// keeps its priority until it is out, else it is pushed to and fro.
 void Planner::Pipeline::lookForRoom(const Eigen::Vector2d& here) {
-  const auto isRoomy = [&](const Eigen::Vector2d& offset) {
-    const Eigen::Vector2d place = here + offset;
-    return surroundings_.obstacles().at(place) >= kRoomy && surroundings_.unseen().at(place) >= 0.5 * kRoomy &&
-           surroundings_.obstacles().at(here + 0.5 * offset) >= footprint_.inscribedRadius();
-  };
-  bool found = !room_ || isRoomy({0.0, 0.0});
-  for (int i = 0; i < 8 && !found; ++i)
-    found = isRoomy(kRoomReach * Eigen::Rotation2Dd(0.25 * i * kPi).toRotationMatrix().col(0));
-  if (found) room_ = here;
+  const bool is_roomy = surroundings_.obstacles().at(here) >= kRoomy && surroundings_.unseen().at(here) >= 0.5 * kRoomy;
+  if (!room_ || is_roomy) room_ = here;
+  back_ = is_roomy ? 0.0 : std::max(back_, (*room_ - here).norm());
 }
 
 void Planner::Pipeline::tell(const RightOfWay& right, const Path& way) {

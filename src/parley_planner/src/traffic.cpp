@@ -80,7 +80,20 @@ void Traffic::observe(const PlanRequest& request) {
     tubes_.push_back(tubeOf(peer, request.now, margin));
   }
   noteStanding(request.now);
+  boundLentRights();
   withoutPeers(request);
+}
+
+/// What was lent counts no more than its holder says of itself by now, if that is heard: else a right that has ended is
+/// handed on in circles.
+void Traffic::boundLentRights() {
+  for (PeerTube& tube : tubes_) {
+    if (tube.right.depth == 0) continue;
+    const auto holder = std::find_if(tubes_.begin(), tubes_.end(), [&](const PeerTube& other) {
+      return other.id == tube.right.holder && other.right.depth == 0;
+    });
+    if (holder != tubes_.end()) tube.right.priority = std::min(tube.right.priority, holder->right.priority);
+  }
 }
 
 void Traffic::noteStanding(double now) {

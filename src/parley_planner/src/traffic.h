@@ -55,6 +55,7 @@ class Traffic {
 
  private:
   void noteStanding(double now);
+  void boundLentRights();
   bool isIn(const PeerTube& tube, const Pose2& pose) const;
   bool contradicted(const PeerMotion& peer, const PlanRequest& request) const;
   void withoutPeers(const PlanRequest& request);
