@@ -21,6 +21,7 @@ constexpr double kRouteStays = 30.0;      // [s]
 constexpr double kSoon = 0.3;             // [s]
 constexpr double kWalksThrough = 1.2;     // [s]
 constexpr double kSightSlack = 0.1;       // [m/s]
+constexpr double kLeastPath = 0.01;       // [m] less is no path
 constexpr double kSettled = 0.3;          // [s] after a trajectory's end the robot stands,
 constexpr double kRestsOff = 0.1;         // [m, rad] no further from there than this
 constexpr double kLongestForecast = 0.5;  // [s] of the measured state
@@ -298,6 +299,7 @@ std::optional<Proposal> Planner::Pipeline::attempt(const Attempt& how, const Tra
 
 /// A motion along a path, if the validator lets it pass.
 std::optional<Proposal> Planner::Pipeline::along(const Path& path, const Attempt& how, const TrajectoryPoint& start) const {
+  if (pathLength(path) < kLeastPath) return std::nullopt;
   const Surroundings& shape = how.shape != nullptr ? *how.shape : surroundings_;
   const DriveScene scene{how.squeeze ? shape : surroundings_,
                          traffic_.tracks(),

@@ -23,12 +23,15 @@ class PlannerTest : public testing::Test {
   }
   PlanResult plan(double now) {
     odometry_.stamp = now;
-    return planner_.plan({now, now + 0.05, odometry_, map_, scan_, odometry_.pose, tracks_, route_, goal_, 0.3, committed_});
+    PlanRequest request{now, now + 0.05, odometry_, map_, scan_, odometry_.pose, tracks_, route_, goal_, 0.3, committed_};
+    request.peers = peers_;
+    return planner_.plan(request);
   }
   Planner planner_{PlannerOptions(), robotFootprint(), robotLimits()};
   LocalMap map_ = seenMap(World(10, 10, false));
   ObstacleScan scan_;
   std::vector<TrackedObject> tracks_;
+  std::vector<PeerMotion> peers_;
   Route route_;
   Odometry odometry_;
   Eigen::Vector2d goal_{8.0, 5.0};
@@ -96,6 +99,22 @@ TEST_F(PlannerTest, SaysWhatBlocks) {
   live(100, 110);
   EXPECT_TRUE(result.status.is(PlanCode::kBlocked));
   EXPECT_EQ(result.status.text, "blocked by something that moved");
+  // A teammate close behind is not what it waits for, one before it is.
+  PeerMotion mate;
+  mate.id = 9;
+  mate.footprint = robotFootprint();
+  mate.trajectory = SampledTrajectory::standing({odometry_.pose.x - 1.2, 5.0, 0.0}, 11.0);
+  mate.heard = 11.0;
+  mate.intent = {{1.0, 9, 0}, {{odometry_.pose.x - 1.2, 5.0}}};
+  peers_ = {mate};
+  live(110, 120);
+  EXPECT_TRUE(result.status.is(PlanCode::kBlocked));
+  peers_[0].trajectory = SampledTrajectory::standing({odometry_.pose.x + 1.2, 5.0, 0.0}, 12.0);
+  peers_[0].heard = 12.0;
+  peers_[0].intent.way = {{odometry_.pose.x + 1.2, 5.0}};
+  tracks_.clear();
+  live(120, 130);
+  EXPECT_TRUE(result.status.is(PlanCode::kWaiting));
 }
 
 TEST_F(PlannerTest, ArrivesWithHysteresis) {
@@ -186,6 +205,43 @@ TEST_F(PlannerTest, StartsFromTheOdometryWhenItIsOffTheTrajectory) {
   const PlanResult result = plan(1.0);
   ASSERT_FALSE(result.keep_committed);
   EXPECT_NEAR(result.trajectory.points().front().pose.y, 5.5, 0.01);
+}
+
+TEST_F(PlannerTest, WhatIsNotDrivenIsNotToldAnyLonger) {
+  committed_ = plan(0.0).trajectory;  // to x = 8; the controller stopped the robot on its way
+  odometry_.pose = {4.5, 5.0, 0.0};
+  route_ = {};
+  const double later = committed_.endTime() + 1.0;
+  PlanResult result = plan(later);
+  ASSERT_FALSE(result.keep_committed);
+  EXPECT_NEAR(result.trajectory.at(later).pose.x, 4.5, 1e-6);
+  EXPECT_EQ(result.trajectory.points().back().twist.speed, 0.0);
+  committed_ = result.trajectory;
+  EXPECT_TRUE(plan(later + 0.1).keep_committed);
+}
+
+/// A room with a corridor of 1.2 m that leads out of it.
+TEST_F(PlannerTest, WhoHasBeenDeepInACorridorGoesFirstUntilItIsOut) {
+  World world(24, 10, true);
+  world.fill(0.3, 3.0, 2.7, 7.0, false);
+  world.fill(2.5, 4.4, 23.7, 5.6, false);
+  map_ = seenMap(world);
+  goal_ = {23.0, 5.0};
+  std::mt19937 random(1);
+  double now = 0.0;
+  const auto priorityAt = [&](double x) {
+    odometry_.pose = {x, 5.0, 0.0};
+    route_.points = {{x, 5.0}, goal_};
+    scan_ = castScan(world, odometry_.pose, now, 0.0, random);
+    now += 1.0;
+    return plan(now).intent.right.priority;
+  };
+  EXPECT_EQ(priorityAt(1.5), 1.0);
+  EXPECT_EQ(priorityAt(8.0), 1.0);
+  EXPECT_EQ(priorityAt(10.5), 1.5);
+  EXPECT_EQ(priorityAt(18.5), 2.0);
+  EXPECT_EQ(priorityAt(4.0), 2.0) << "pushed back, it keeps what it has until it is out";
+  EXPECT_EQ(priorityAt(1.5), 1.0);
 }
 
 TEST_F(PlannerTest, BadInputIsNotDrivenOn) {

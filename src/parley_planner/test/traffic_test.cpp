@@ -53,7 +53,7 @@ class TrafficTest : public testing::Test {
 };
 
 TEST(RightOfWay, OrdersAnyTwo) {
-  EXPECT_TRUE(goesBefore({2.0, 1, 0}, {1.0, 9, 0}));  // shut in
+  EXPECT_TRUE(goesBefore({10.0, 1, 0}, {1.0, 9, 0}));  // shut in
   EXPECT_TRUE(goesBefore({1.0, 9, 0}, {1.0, 8, 0}));
   EXPECT_TRUE(goesBefore({1.0, 9, 0}, {1.0, 9, 1}));  // who pushes goes before whom it pushes
   EXPECT_TRUE(goesBefore({1.0, 9, 3}, {1.0, 8, 0}));  // and lends its right
@@ -158,6 +158,22 @@ TEST_F(TrafficTest, ARightOfWayThatGoesRoundInCirclesDiesOut) {
   traffic_.reset();
   observe(&traffic_, {pushing});
   EXPECT_TRUE(decide(&traffic_, way(3.0, 5.0, 8.0, 5.0), {1.0, 5, 0}, 0.0, 0.0).first.empty());
+}
+
+TEST_F(TrafficTest, WhatIsLentCountsWhatItsHolderSays) {
+  PeerMotion between = peer(7, {4.0, 5.0, kPi}, {1.0, 5.0});
+  between.intent.right = {10.0, 9, 2};
+  PeerMotion holder = peer(9, {6.0, 5.0, kPi}, {1.0, 5.0});
+  const auto priority = [&](const std::vector<PeerMotion>& peers) {
+    observe(&traffic_, peers);
+    return traffic_.tubes().front().right.priority;
+  };
+  EXPECT_EQ(priority({between}), 10.0) << "nobody says otherwise";
+  EXPECT_EQ(priority({between, holder}), 1.0) << "it is not shut in any longer";
+  holder.intent.right.priority = 10.0;
+  EXPECT_EQ(priority({between, holder}), 10.0);
+  holder.intent.right = {1.5, 4, 1};
+  EXPECT_EQ(priority({between, holder}), 10.0) << "it says nothing of its own";
 }
 
 TEST_F(TrafficTest, WhatThePeerCoversIsNoObstacleUnlessItIsElsewhere) {
