@@ -26,7 +26,21 @@ Box World::squareOf(int x, int y) const {
 }
 
 double World::distanceToSolid(const Eigen::Vector2d& point, double limit) const {
-  return distanceToSolid(Box{point, Eigen::Vector2d::UnitX(), 0.0, 0.0}, limit);
+  if (freeRadius(point) >= limit) return limit;
+  const Eigen::Vector2i low = frame_.cellOf(point.array() - limit).cwiseMax(-1);
+  const Eigen::Vector2i high = frame_.cellOf(point.array() + limit).cwiseMin(Eigen::Vector2i(frame_.width, frame_.height));
+  const double half = 0.5 * frame_.resolution;
+  double nearest = limit * limit;
+  for (int y = low.y(); y <= high.y(); ++y) {
+    const double dy = std::max(0.0, std::abs(point.y() - frame_.centerOf({low.x(), y}).y()) - half);
+    if (dy * dy >= nearest) continue;
+    for (int x = low.x(); x <= high.x(); ++x) {
+      if (gaps_[gapIndex(x, y)] != 0.0F) continue;
+      const double dx = std::max(0.0, std::abs(point.x() - frame_.centerOf({x, y}).x()) - half);
+      nearest = std::min(nearest, dx * dx + dy * dy);
+    }
+  }
+  return std::sqrt(nearest);
 }
 
 double World::distanceToSolid(const Box& box, double limit) const {

@@ -20,6 +20,16 @@ CellRect changedRect(const Tile& tile) {
   return {rect.x0 + x0, rect.y0 + y0, rect.x1 + x0, rect.y1 + y0};
 }
 
+/// The changed blocks of each tile, which are no longer noted as changed.
+std::vector<CellRect> takeChanged(const TiledMap& map) {
+  std::vector<CellRect> rects;
+  for (Tile* tile : map.changed()) {
+    if (tile->changed_cells) rects.push_back(changedRect(*tile));
+    tile->changed_cells = 0;
+  }
+  return rects;
+}
+
 double areaOf(const CellRect& rect) { return static_cast<double>(rect.width()) * rect.height(); }
 
 /// Joins windows as long as working on the joint one, grown by `halo`, is no more work than on both.
@@ -91,7 +101,8 @@ cv::Mat1b nearOwn(const TiledMap& map, const CellRect& rect) {
 }
 
 /// Own sensing where it has looked and up to the layer distance around, layers beyond. Where it saw nothing, now or near by,
-/// an outline that was told later has the word.
+/// an outline that was told later has the word. Leaves the blocks in `changed_cells` of which something is occupied or free now
+/// that was not.
 void fuse(TiledMap& map, const CellRect& rect, const FieldShape& shape) {
   cv::Mat1w looked;
   cv::Mat1b near_own;
@@ -112,11 +123,14 @@ void fuse(TiledMap& map, const CellRect& rect, const FieldShape& shape) {
       for (int x = part.x0; x < part.x1; ++x) {
         const std::size_t i = offsetOf(x, y);
         std::uint8_t& flags = tile->flags[i];
+        const std::uint8_t before = flags;
         const bool own_word = ownWord(*tile, i, y - rect.y0, x - rect.x0);
         setBit(flags, kFused, (flags & kOwn) || (!own_word && tile->layers->hard[i] > 0));
         setBit(flags, kTentative, !own_word && tile->layers->soft[i] > 0);
+        if ((before ^ flags) & kFused) tile->changed_cells = static_cast<std::uint16_t>(tile->changed_cells | blockBit(x, y));
       }
     }
+    if (tile->changed_cells) map.note(*tile);
   });
 }
 
@@ -186,17 +200,10 @@ void store(TiledMap& map, const FieldImage& image) {
 }  // namespace
 
 void refreshField(TiledMap& map, const FieldShape& shape) {
-  std::vector<CellRect> rects;
-  for (Tile* tile : map.changed()) {
-    if (tile->changed_cells) rects.push_back(changedRect(*tile));
-    tile->changed_cells = 0;
-  }
   const int gap = static_cast<int>(std::lround(shape.layer_distance / map.resolution()));
   const int halo = static_cast<int>(std::ceil(shape.reach / map.resolution()));
-  for (const CellRect& window : joined(rects, 2 * halo)) {
-    fuse(map, window.grown(gap), shape);
-    store(map, measure(map, window.grown(gap + halo), shape));
-  }
+  for (const CellRect& window : joined(takeChanged(map), 2 * gap)) fuse(map, window.grown(gap), shape);
+  for (const CellRect& window : joined(takeChanged(map), 2 * halo)) store(map, measure(map, window.grown(halo), shape));
 }
 
 }  // namespace parley
