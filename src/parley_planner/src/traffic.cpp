@@ -10,26 +10,29 @@ namespace parley {
 
 namespace {
 
-constexpr double kBelieved = 3.0;     // [s] a motion told longer ago is not believed
-constexpr double kTrackReach = 0.9;   // [m] a track so near to where a peer should be is of that peer,
-constexpr double kTrackMiss = 0.45;   // [m] and contradicts it if it is further off
-constexpr int kSureTrack = 4;         // [-] scans
-constexpr double kBodyGrowth = 0.15;  // [m] returns so far outside a peer's footprint are its own
-constexpr int kDeepest = 15;          // [-] through so many robots a right of way is lent
-constexpr double kLentFor = 0.6;      // [s] a right of way is kept after it was last needed
-constexpr double kNoRoomFor = 1.0;    // [s] without anywhere to make room a robot is shut in,
-constexpr double kNoRoomBreak = 0.5;  // [s] with breaks shorter than this,
-constexpr double kShutInFor = 20.0;   // [s] for so long at most
-constexpr double kOutAgain = 10.0;    // [m] and until it has come so far
-constexpr double kKeepsTo = 0.6;      // [s] for which others surely keep to what they said
-constexpr double kUsualSpeed = 1.2;   // [m/s] at which robots are taken to get on
-constexpr double kAhead = 1.5;        // [s] by which a robot must be earlier to pass before one that goes first
-constexpr double kPassingGap = 0.12;  // [m] between two that pass each other
-constexpr double kBodyGap = 0.1;      // [m] that a standing robot leaves beside the other
-constexpr double kStuckFor = 2.0;     // [s]
-constexpr double kMeansToGo = 0.5;    // [m] of way that says that a peer that stands would rather not
-constexpr double kTurningGap = 0.15;  // [m] round one that may turn
-constexpr double kAside = 0.25;       // [m] more, up to which two that come towards each other mind each other
+constexpr double kBelieved = 3.0;       // [s] a motion told longer ago is not believed
+constexpr double kTrackReach = 0.9;     // [m] a track so near to where a peer should be is of that peer,
+constexpr double kTrackMiss = 0.45;     // [m] and contradicts it if it is further off
+constexpr int kSureTrack = 4;           // [-] scans
+constexpr double kBodyGrowth = 0.15;    // [m] returns so far outside a peer's footprint are its own
+constexpr int kDeepest = 15;            // [-] through so many robots a right of way is lent
+constexpr double kLentFor = 0.6;        // [s] a right of way is kept after it was last needed
+constexpr double kNoRoomFor = 1.0;      // [s] without anywhere to make room a robot is shut in,
+constexpr double kNoRoomBreak = 0.5;    // [s] with breaks shorter than this,
+constexpr double kShutInFor = 20.0;     // [s] for so long at most
+constexpr double kOutAgain = 10.0;      // [m] and until it has come so far
+constexpr double kKeepsTo = 0.6;        // [s] for which others surely keep to what they said
+constexpr double kUsualSpeed = 1.2;     // [m/s] at which robots are taken to get on
+constexpr double kAhead = 1.5;          // [s] by which a robot must be earlier to pass before one that goes first
+constexpr double kPassingGap = 0.12;    // [m] between two that pass each other
+constexpr double kBodyGap = 0.1;        // [m] that a standing robot leaves beside the other
+constexpr double kStuckFor = 2.0;       // [s]
+constexpr double kMeansToGo = 0.5;      // [m] of way that says that a peer that stands would rather not
+constexpr double kTurningGap = 0.15;    // [m] round one that may turn
+constexpr double kDrives = 0.05;        // [m/s] slower peers stand
+constexpr double kDrivesOn = 2.0;       // [s] that a peer may drive on as it does, whatever it means to do next,
+constexpr double kLongestDriven = 4.0;  // [m] up to so far
+constexpr double kAside = 0.25;         // [m] more, up to which two that come towards each other mind each other
 
 double clearOf(const Footprint& a, const Footprint& b) { return 0.5 * (a.width + b.width) + kPassingGap; }
 
@@ -142,8 +145,15 @@ void Traffic::withoutPeers(const PlanRequest& request) {
 std::vector<TrackedObject> Traffic::oncoming(const Path& way, double now) const {
   std::vector<TrackedObject> result;
   for (const PeerTube& tube : tubes_) {
-    const auto meeting = meetingOf(way, tube, clearOf(footprint_, tube.footprint));
-    if (!meeting || !meeting->against) continue;
+    PeerTube driven = tube;
+    driven.way = wayFrom({driven.way.front(), driven.way.front() + kDrivesOn * tube.speed * tube.pose.direction()},
+                         driven.way.front(), kLongestDriven);
+    const double clear = clearOf(footprint_, tube.footprint);
+    const auto comes = [&](const PeerTube& there) {
+      const auto meeting = meetingOf(way, there, clear);
+      return meeting && meeting->against;
+    };
+    if (!comes(tube) && (std::abs(tube.speed) < kDrives || !comes(driven))) continue;
     TrackedObject object;
     object.id = -1;
     object.stamp = now;

@@ -40,7 +40,7 @@ class Traffic {
   const std::vector<TrackedObject>& tracks() const { return tracks_; }
   const std::vector<PeerTube>& tubes() const { return tubes_; }
 
-  /// Peers that come against a way [m], as things that move: until both have heard of each other's newest plans, either may
+  /// Peers that come against a way [m] or mean to, as things that move: until both have heard of each other's newest plans, either may
   /// drive on into what is free between them.
   std::vector<TrackedObject> oncoming(const Path& way, double now) const;
 

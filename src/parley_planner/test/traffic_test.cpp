@@ -206,6 +206,24 @@ TEST_F(TrafficTest, WhoComesTowardsCountsAsMovingThing) {
   EXPECT_NEAR(oncoming[0].position.x(), 6.0, 1e-9);
 }
 
+TEST_F(TrafficTest, WhoMeansToTurnBackStillComesUntilItHasStopped) {
+  PeerMotion braking = peer(9, {6.0, 5.0, kPi}, {9.0, 5.0});  // it has told that it makes room
+  const Path wish = way(1.0, 5.0, 8.0, 5.0);
+  observe(&traffic_, {braking});
+  EXPECT_TRUE(traffic_.oncoming(wish, 0.0).empty());
+  std::vector<TrajectoryPoint> points;
+  for (int k = 0; k <= 10; ++k) {
+    const double t = 0.1 * k;
+    points.push_back({t, {6.0 - t + 0.5 * t * t, 5.0, kPi}, {1.0 - t, 0.0}});
+  }
+  braking.trajectory = SampledTrajectory(points);
+  observe(&traffic_, {braking});
+  ASSERT_EQ(traffic_.oncoming(wish, 0.0).size(), 1U);
+  EXPECT_NEAR(traffic_.oncoming(wish, 0.0)[0].velocity.x(), -1.0, 1e-9);
+  observe(&traffic_, {braking}, 1.1);
+  EXPECT_TRUE(traffic_.oncoming(wish, 1.1).empty()) << "it stands";
+}
+
 }  // namespace
 }  // namespace parley
 
