@@ -14,6 +14,7 @@ namespace {
 constexpr int kStride = 2;             // [cells] lattice spacing
 constexpr double kStartRelief = 0.4;   // [m] around the start, where the robot may already be too near
 constexpr double kKeepDistance = 0.2;  // [m] lattice points this near to the previous path keep it
+constexpr double kNearGoal = 0.6;      // [m]
 constexpr float kInfinity = 1e30F;
 
 struct Entry {
@@ -100,16 +101,24 @@ class Search {
 
   bool reached() const { return reached_; }
   /// Lattice points from the start to the goal or to what is nearest to it.
-  Path path() const {
-    Path points;
-    for (int node = reached_ ? goal_ : nearest_; node >= 0; node = parents_[static_cast<std::size_t>(node)]) {
-      points.push_back(lattice_.position(node));
+  Path path() const { return pathTo(reached_ ? goal_ : nearest_); }
+  /// Lattice points to the furthest point of a route that was reached; empty if none was.
+  Path pathAlong(const Path& route) const {
+    for (auto p = route.rbegin(); p != route.rend(); ++p) {
+      const int node = lattice_.nodeAt(*p);
+      if (costs_[static_cast<std::size_t>(node)] < kInfinity) return pathTo(node);
     }
+    return {};
+  }
+
+ private:
+  Path pathTo(int last) const {
+    Path points;
+    for (int node = last; node >= 0; node = parents_[static_cast<std::size_t>(node)]) points.push_back(lattice_.position(node));
     std::reverse(points.begin(), points.end());
     return points;
   }
 
- private:
   float estimate(int node) const {
     const int w = lattice_.width();
     const int dx = std::abs(node % w - goal_ % w), dy = std::abs(node / w - goal_ / w);
@@ -170,10 +179,17 @@ double leastClearance(const DistanceField& field, const Eigen::Vector2d& a, cons
 }  // namespace
 
 FoundPath searchPath(const Surroundings& surroundings, const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
-                     const Path& previous, const PathSearchOptions& options) {
+                     const Path& previous, const PathSearchOptions& options, const Path& route) {
   const Lattice lattice(surroundings, start, previous, options);
   const Search search(lattice, lattice.nodeAt(start), lattice.nodeAt(goal), options.keep_discount);
   Path points = search.path();
+  if (!search.reached() && (points.back() - goal).norm() > kNearGoal) {  // what is near as the crow flies may be behind a wall
+    Path on_route = search.pathAlong(route);
+    if (on_route.size() > 1 && (on_route.back() - start).norm() > kLeastAdvance) {
+      on_route.front() = start;
+      return {on_route, false};
+    }
+  }
   if (!search.reached() && (points.back() - goal).norm() > (start - goal).norm() - kLeastAdvance) return {};
   // The lattice points of the start and the goal give way to the real ones.
   points.front() = start;

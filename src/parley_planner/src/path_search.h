@@ -19,8 +19,9 @@ struct PathSearchOptions {
 };
 
 /// A* over a lattice of two by two map cells with clearance cost.
-/// Returns the chain of lattice points from the start to the goal, both included as given, or, where the goal
-/// is closed off, to the reachable point nearest to it if that is at least `kLeastAdvance` nearer than the start.
+/// Returns the chain of lattice points from the start to the goal, both included as given. Where the goal is closed off: to
+/// the furthest point of `route` (evenly spaced, to the goal) that can be reached, if that is at least `kLeastAdvance` on and
+/// no point near the goal can; else to the reachable point nearest to the goal, if that is so much nearer than the start.
 struct FoundPath {
   Path points;           // empty if there is none
   bool reaches = false;  // the goal itself
@@ -28,7 +29,7 @@ struct FoundPath {
 constexpr double kLeastAdvance = 0.3;  // [m]
 
 FoundPath searchPath(const Surroundings& surroundings, const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
-                     const Path& previous, const PathSearchOptions& options);
+                     const Path& previous, const PathSearchOptions& options, const Path& route = {});
 
 /// The same way with fewer corners: shortcuts that come no nearer to obstacles than what they replace, or than comfort.
 Path straightened(const Surroundings& surroundings, const Path& path, double comfort_distance);

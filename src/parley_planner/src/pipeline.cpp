@@ -22,6 +22,7 @@ constexpr double kSoon = 0.3;             // [s]
 constexpr double kWalksThrough = 1.2;     // [s]
 constexpr double kSightSlack = 0.1;       // [m/s]
 constexpr double kLeastPath = 0.01;       // [m] less is no path
+constexpr double kOnRoute = 0.5;          // [m]
 constexpr double kSettled = 0.3;          // [s] after a trajectory's end the robot stands,
 constexpr double kRestsOff = 0.1;         // [m, rad] no further from there than this
 constexpr double kLongestForecast = 0.5;  // [s] of the measured state
@@ -278,6 +279,17 @@ std::optional<Proposal> Planner::Pipeline::bestProposal(const PlanRequest& reque
   return best;
 }
 
+/// The route up to the local goal; empty if that is not on it.
+Path Planner::Pipeline::routeToLocalGoal(const Eigen::Vector2d& here) const {
+  Path way = wayFrom(route_.points, here, options_.look_ahead + kOnRoute);
+  const auto last = std::min_element(way.begin(), way.end(), [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return (a - local_goal_).squaredNorm() < (b - local_goal_).squaredNorm();
+  });
+  if ((*last - local_goal_).norm() > kOnRoute) return {};
+  way.erase(last + 1, way.end());
+  return way;
+}
+
 FoundPath Planner::Pipeline::search(const Attempt& how, const TrajectoryPoint& start) const {
   PathSearchOptions search;
   search.least_clearance = how.least_clearance;
@@ -285,7 +297,8 @@ FoundPath Planner::Pipeline::search(const Attempt& how, const TrajectoryPoint& s
   search.clearance_weight = options_.clearance_weight;
   search.unknown_cost = options_.unknown_cost;
   search.keep_discount = options_.keep_path_discount;
-  return searchPath(how.shape != nullptr ? *how.shape : surroundings_, start.pose.position(), local_goal_, path_, search);
+  return searchPath(how.shape != nullptr ? *how.shape : surroundings_, start.pose.position(), local_goal_, path_, search,
+                    routeToLocalGoal(start.pose.position()));
 }
 
 std::optional<Proposal> Planner::Pipeline::attempt(const Attempt& how, const TrajectoryPoint& start) const {

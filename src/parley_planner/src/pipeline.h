@@ -73,6 +73,7 @@ class Planner::Pipeline {
   void lookForRoom(const Eigen::Vector2d& here);
   void tell(const RightOfWay& right, const Path& way);
   std::optional<Proposal> bestProposal(const PlanRequest& request, const TrajectoryPoint& start);
+  Path routeToLocalGoal(const Eigen::Vector2d& here) const;
   FoundPath search(const Attempt& how, const TrajectoryPoint& start) const;
   std::optional<Proposal> along(const Path& path, const Attempt& how, const TrajectoryPoint& start) const;
   std::optional<Proposal> attempt(const Attempt& how, const TrajectoryPoint& start) const;
@@ -93,6 +94,7 @@ class Planner::Pipeline {
   Traffic traffic_;
   Intent intent_;
   std::optional<Eigen::Vector2d> escape_;                           // [m] the escape point on the way to which it is
+  Path wished_escape_;                                              // [m] the way to the first escape point that was looked at
   std::optional<Eigen::Vector2d> room_;                             // [m] where it was when another could last have passed
   double back_ = 0.0;                                               // [m] the furthest it has been from there since
   std::vector<std::pair<double, Eigen::Vector2d>> failed_escapes_;  // [s] until when not to be tried, [m]

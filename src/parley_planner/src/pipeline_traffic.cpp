@@ -219,7 +219,8 @@ PlanResult Planner::Pipeline::makeRoom(const TrafficDecision& decision, const Pl
       tell(decision.right, wayFrom(proposal->path, start.pose.position(), kTellReach));
       return commit(*proposal, PlanCode::kEscaping);
     }
-    tell(decision.right, {start.pose.position()});
+    // Who stands in the way of where it would make room has to hear of it.
+    tell(decision.right, wayFrom(wished_escape_, start.pose.position(), kTellReach));
     return standStill(request, start, PlanCode::kYielding, "another goes first");
   }
   escape_.reset();
@@ -250,6 +251,7 @@ std::optional<Proposal> Planner::Pipeline::escape(const TrafficDecision& decisio
     escape_.reset();
     watch_.reset();
   }
+  wished_escape_.clear();
   for (int i = 0; i < kEscapeTries; ++i) {
     std::vector<Eigen::Vector2d> failed;
     for (const auto& [until, place] : failed_escapes_) failed.push_back(place);
@@ -260,6 +262,7 @@ std::optional<Proposal> Planner::Pipeline::escape(const TrafficDecision& decisio
       if (i == 0 && failed.empty() && stands(start.twist)) findWayOut(decision, request, start);
       break;
     }
+    if (wished_escape_.empty()) wished_escape_ = *path;
     if (std::optional<Proposal> proposal = escapeAlong(*path, request, start)) {
       if (!escape_ || (*escape_ - path->back()).norm() > kAnotherEscape) ++escapes_;
       escape_ = path->back();

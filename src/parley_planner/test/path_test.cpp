@@ -59,6 +59,19 @@ TEST(PathSearch, ComesNearWhereTheGoalIsClosedOff) {
   EXPECT_TRUE(searchPath(surroundings, {4.6, 5.0}, {8.0, 5.0}, {}, {}).points.empty());
 }
 
+TEST(PathSearch, GoesAsFarAsTheRouteIsOpen) {
+  // The goal is behind the wall; the route leads round by a door at the top that has been shut.
+  const Surroundings surroundings(rooms(9.0, 0.0), {}, {}, {});
+  const Path route = resampled({{4.0, 2.0}, {4.0, 9.0}, {6.0, 9.0}, {6.0, 2.0}}, 0.1);
+  const FoundPath found = searchPath(surroundings, {4.0, 2.0}, {6.0, 2.0}, {}, {}, route);
+  EXPECT_FALSE(found.reaches);
+  ASSERT_FALSE(found.points.empty());
+  EXPECT_NEAR(found.points.back().x(), 4.65, 0.15);
+  EXPECT_NEAR(found.points.back().y(), 9.0, 0.1);
+  EXPECT_NEAR(searchPath(surroundings, {4.0, 2.0}, {6.0, 2.0}, {}, {}).points.back().y(), 2.0, 0.2) << "as the crow flies";
+  EXPECT_TRUE(searchPath(surroundings, {4.6, 9.0}, {6.0, 9.0}, {}, {}, resampled({{4.6, 9.0}, {6.0, 9.0}}, 0.1)).points.empty());
+}
+
 TEST(PathSearch, KeepsTheSideItHasChosen) {
   World world(10, 10, false);
   world.fill(4.5, 3.9, 5.5, 6.0, true);  // a little shorter to pass above than below
