@@ -20,7 +20,6 @@ void doubtOwn(TiledMap& map, int now) {
     for (int y = 0; y < kTileSize; ++y) {
       for (int x = 0; x < kTileSize; ++x) {
         const std::size_t i = offsetOf(x, y);
-        constexpr std::uint8_t kCame = kOwn | kOnceFree;
         if ((tile->flags[i] & kCame) != kCame || tile->looked[i] + kInView > now) continue;
         tile->flags[i] = static_cast<std::uint8_t>(tile->flags[i] & ~(kSeen | kOwn));
         tile->evidence[i] = 0;

@@ -31,6 +31,9 @@ enum CellFlag : std::uint8_t {
   kOnceFree = 64    // own sensing was sure that nothing is here, now or earlier
 };
 
+/// What stands where own sensing was once sure of nothing: it came, and may go.
+constexpr std::uint8_t kCame = kOwn | kOnceFree;
+
 /// What holds where there is no tile: never seen, nothing near.
 constexpr std::uint8_t kFlagsOfNothing = kWide | kPassable;
 constexpr std::uint8_t kFarAway = 255;

@@ -37,6 +37,7 @@ FieldShape shapeOf(const TopologyOptions& options, const Footprint& footprint) {
 }
 
 constexpr double kLargestWindow = 200.0;  // [m] of a local map
+constexpr int kStays = 3;                 // [s] that what came where nothing was is taken to stay while nobody looks
 
 }  // namespace
 
@@ -138,15 +139,21 @@ LocalMap Topology::localMap(const Eigen::Vector2d& center, double size, double s
   const int x0 = p.map.cellOf(center.x() - 0.5 * size), y0 = p.map.cellOf(center.y() - 0.5 * size);
   local.frame.origin = {x0 * p.options.resolution, y0 * p.options.resolution};
   local.frame.width = local.frame.height = cells;
+  const int now = parts_->map.secondsOf(stamp);
   local.cells.assign(static_cast<std::size_t>(cells) * static_cast<std::size_t>(cells), CellState::kUnknown);
   forEachTile({x0, y0, x0 + cells, y0 + cells}, [&](int tx, int ty, const CellRect& part) {
     const Tile* tile = p.map.find(tx, ty);
     for (int y = part.y0; tile && y < part.y1; ++y) {
       CellState* row = local.cells.data() + static_cast<std::ptrdiff_t>(y - y0) * cells - x0;
       for (int x = part.x0; x < part.x1; ++x) {
-        const std::uint8_t flags = tile->flags[offsetOf(x, y)];
+        const std::size_t i = offsetOf(x, y);
+        const std::uint8_t flags = tile->flags[i];
         const bool occupied = flags & kSeen ? flags & kOwn : flags & kFused;
-        row[x] = occupied ? CellState::kOccupied : flags & kSeen ? CellState::kSeenFree : CellState::kUnknown;
+        const bool may_have_gone = occupied && (flags & kCame) == kCame && tile->looked[i] + kStays < now;
+        row[x] = may_have_gone   ? CellState::kUnknown
+                 : occupied      ? CellState::kOccupied
+                 : flags & kSeen ? CellState::kSeenFree
+                                 : CellState::kUnknown;
       }
     }
   });

@@ -148,6 +148,18 @@ TEST(Doors, whatCameIntoTheOnlyDoorIsDoubtedOutOfView) {
   EXPECT_FALSE(topology.route(kBeforeTheDoor, {10.0, 3.0}).exists()) << "it is still shut";
 }
 
+TEST(Doors, whatCameAndIsOutOfViewIsNoWallToTheLocalPlanner) {
+  Topology topology = seenOpenThenShut();
+  const auto stateAt = [&](double x, double y, double stamp) {
+    const LocalMap map = topology.localMap({5.0, 3.0}, 8.0, stamp);
+    return map.cells[static_cast<std::size_t>(map.frame.indexOf(map.frame.cellOf({x, y})))];
+  };
+  const double near_side = kDoorAt - 0.075;
+  EXPECT_EQ(stateAt(near_side, 3.0, 104.0), CellState::kOccupied);
+  EXPECT_EQ(stateAt(near_side, 3.0, 110.0), CellState::kUnknown);
+  EXPECT_EQ(stateAt(near_side, 1.0, 110.0), CellState::kOccupied) << "the wall beside it was always there";
+}
+
 TEST(Doors, whatIsInViewIsNotDoubted) {
   Topology topology = seenOpenThenShut();
   for (int i = 0; i < 30; ++i) {

@@ -61,7 +61,8 @@ class Topology {
   /// next update on: what came where nothing was and is out of view, then peers' outlines too.
   Route route(const Pose2& T_odom_base, const Eigen::Vector2d& goal_odom);
 
-  /// A square window of `size` [m] around `center`, aligned with the map's cells.
+  /// A square window of `size` [m] around `center`, aligned with the map's cells, as of `stamp` [s]. What came where nothing
+  /// was and has not been looked at for a while is unknown: nobody should count on it as a wall.
   LocalMap localMap(const Eigen::Vector2d& center, double size, double stamp) const;
 
   const VisibilityGraph& graph() const;
