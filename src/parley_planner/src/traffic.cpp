@@ -29,7 +29,7 @@ constexpr double kBodyGap = 0.1;        // [m] that a standing robot leaves besi
 constexpr double kStuckFor = 2.0;       // [s]
 constexpr double kMeansToGo = 0.5;      // [m] of way that says that a peer that stands would rather not
 constexpr double kTurningGap = 0.15;    // [m] round one that may turn
-constexpr double kUnheard = 0.3;        // [m] that one may have come nearer than what was last heard of it says
+constexpr double kUnheard = 0.25;       // [s] for which a peer may not have braked as it had told
 constexpr double kDrives = 0.05;        // [m/s] slower peers stand
 constexpr double kDrivesOn = 2.0;       // [s] that a peer may drive on as it does, whatever it means to do next,
 constexpr double kLongestDriven = 4.0;  // [m] up to so far
@@ -160,7 +160,7 @@ std::vector<TrackedObject> Traffic::oncoming(const Path& way, double now) const 
     object.stamp = now;
     object.position = tube.pose.position();
     object.velocity = tube.speed * tube.pose.direction();
-    object.radius = 0.5 * tube.footprint.width + kUnheard;
+    object.radius = 0.5 * tube.footprint.width + kUnheard * std::abs(tube.speed);
     object.observations = kSureTrack;
     object.moving = object.has_moved = true;
     result.push_back(object);
