@@ -99,7 +99,7 @@ RightOfWay Planner::Pipeline::ownRight(const PlanRequest& request) const {
 }
 
 /// Remembers where there was last room for two, and how far it has been from there since: what was pushed deep into a corridor
-/// keeps its priority until it is out, else it is pushed to and fro.
+/// keeps its priority until it is out, else it is pushed back and forth.
 void Planner::Pipeline::lookForRoom(const Eigen::Vector2d& here) {
   const bool is_roomy = surroundings_.obstacles().at(here) >= kRoomy && surroundings_.unseen().at(here) >= 0.5 * kRoomy;
   if (!room_ || is_roomy) room_ = here;

@@ -40,8 +40,8 @@ class Traffic {
   const std::vector<TrackedObject>& tracks() const { return tracks_; }
   const std::vector<PeerTube>& tubes() const { return tubes_; }
 
-  /// Peers that come against a way [m] or mean to, as things that move: until both have heard of each other's newest plans, either may
-  /// drive on into what is free between them.
+  /// Peers that come against a way [m] or mean to, as things that move: until both have heard of each other's newest plans,
+  /// either may drive on into what is free between them.
   std::vector<TrackedObject> oncoming(const Path& way, double now) const;
 
   /// There is nowhere to make room. Having said so for a while without a break, it is shut in: then others have to make room

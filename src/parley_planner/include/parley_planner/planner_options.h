@@ -11,7 +11,7 @@ struct PlannerOptions {
   double clearance_weight = 3.0;    // [-]
   double unknown_cost = 1.5;        // [-]
   double keep_path_discount = 0.9;  // [-]
-  double push_distance = 0.6;      // [m]
+  double push_distance = 0.6;       // [m]
   double bending_weight = 60.0;     // [-]
   double twisting_weight = 2000.0;  // [-]
   int smoothing_iterations = 10;    // [-]
