@@ -7,27 +7,15 @@ namespace {
 constexpr double kMostPatience = 60.0;  // [s]
 constexpr int kInView = 2;              // [s] what was looked at since then is not doubted
 
-void noteAll(TiledMap& map, Tile& tile, std::uint16_t blocks) {
-  tile.changed_cells = static_cast<std::uint16_t>(tile.changed_cells | blocks);
-  tile.changed_seen = static_cast<std::uint16_t>(tile.changed_seen | blocks);
-  map.note(tile);
-}
-
 /// What stands where own sensing once saw nothing, and is out of view, may have gone again: back to never seen.
 void doubtOwn(TiledMap& map, int now) {
   for (const auto& tile : map.tiles()) {
-    std::uint16_t blocks = 0;
     for (int y = 0; y < kTileSize; ++y) {
       for (int x = 0; x < kTileSize; ++x) {
         const std::size_t i = offsetOf(x, y);
-        if ((tile->flags[i] & kCame) != kCame || tile->looked[i] + kInView > now) continue;
-        tile->flags[i] = static_cast<std::uint8_t>(tile->flags[i] & ~(kSeen | kOwn));
-        tile->evidence[i] = 0;
-        tile->looked[i] = 0;
-        blocks = static_cast<std::uint16_t>(blocks | blockBit(x, y));
+        if ((tile->flags[i] & kCame) == kCame && tile->looked[i] + kInView <= now) map.forgetCell(*tile, x, y);
       }
     }
-    if (blocks) noteAll(map, *tile, blocks);
   }
 }
 
@@ -35,7 +23,9 @@ void doubtOwn(TiledMap& map, int now) {
 void doubtPeers(TiledMap& map, std::uint16_t now) {
   map.setDoubted(now);
   for (const auto& tile : map.tiles()) {
-    if (tile->layers) noteAll(map, *tile, 0xffff);
+    if (!tile->layers) continue;
+    tile->changed_cells = tile->changed_seen = 0xffff;
+    map.note(*tile);
   }
 }
 

@@ -50,14 +50,7 @@ void forgetAlong(TiledMap& map, const Refuted& outline) {
       for (int y = part.y0; tile && y < part.y1; ++y) {
         for (int x = part.x0; x < part.x1; ++x) {
           const std::size_t i = offsetOf(x, y);
-          if (!(tile->flags[i] & kOwn) || tile->looked[i] >= before) continue;
-          tile->flags[i] = static_cast<std::uint8_t>(tile->flags[i] & ~(kSeen | kOwn));
-          tile->evidence[i] = 0;
-          tile->looked[i] = 0;
-          const std::uint16_t block = blockBit(x, y);
-          tile->changed_cells = static_cast<std::uint16_t>(tile->changed_cells | block);
-          tile->changed_seen = static_cast<std::uint16_t>(tile->changed_seen | block);
-          map.note(*tile);
+          if ((tile->flags[i] & kOwn) && tile->looked[i] < before) map.forgetCell(*tile, x, y);
         }
       }
     });

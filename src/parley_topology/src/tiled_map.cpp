@@ -47,6 +47,17 @@ std::uint16_t TiledMap::secondsOf(double stamp) {
   return static_cast<std::uint16_t>(std::clamp(stamp - *epoch_, 0.0, 65535.0));
 }
 
+void TiledMap::forgetCell(Tile& tile, int x, int y) {
+  const std::size_t i = offsetOf(x, y);
+  tile.flags[i] = static_cast<std::uint8_t>(tile.flags[i] & ~(kSeen | kOwn));
+  tile.evidence[i] = 0;
+  tile.looked[i] = 0;
+  const std::uint16_t block = blockBit(x, y);
+  tile.changed_cells = static_cast<std::uint16_t>(tile.changed_cells | block);
+  tile.changed_seen = static_cast<std::uint16_t>(tile.changed_seen | block);
+  note(tile);
+}
+
 void TiledMap::forgetChanges() {
   for (Tile* tile : changed_) {
     tile->changed_cells = tile->changed_seen = tile->changed_field = tile->changed_passable = 0;

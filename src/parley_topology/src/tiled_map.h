@@ -168,6 +168,8 @@ class TiledMap {
     if (!tile.noted) changed_.push_back(&tile);
     tile.noted = true;
   }
+  /// Own sensing says nothing of a cell of a tile any longer, as if it had never been seen.
+  void forgetCell(Tile& tile, int x, int y);
   const std::vector<Tile*>& changed() const { return changed_; }
   /// Clears the list and the masks.
   void forgetChanges();
