@@ -14,7 +14,7 @@ namespace {
 constexpr int kStride = 2;             // [cells] lattice spacing
 constexpr double kStartRelief = 0.4;   // [m] around the start, where the robot may already be too near
 constexpr double kKeepDistance = 0.2;  // [m] lattice points this near to the previous path keep it
-constexpr double kNearGoal = 0.6;      // [m]
+constexpr double kNearGoal = 0.6;      // [m] a place so near to a closed goal will do
 constexpr float kInfinity = 1e30F;
 
 struct Entry {

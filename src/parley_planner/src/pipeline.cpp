@@ -22,7 +22,7 @@ constexpr double kSoon = 0.3;             // [s]
 constexpr double kWalksThrough = 1.2;     // [s]
 constexpr double kSightSlack = 0.1;       // [m/s]
 constexpr double kLeastPath = 0.01;       // [m] less is no path
-constexpr double kOnRoute = 0.5;          // [m]
+constexpr double kOnRoute = 0.5;          // [m] further off, the local goal is not of the route
 constexpr double kSettled = 0.3;          // [s] after a trajectory's end the robot stands,
 constexpr double kRestsOff = 0.1;         // [m, rad] no further from there than this
 constexpr double kLongestForecast = 0.5;  // [s] of the measured state
@@ -61,6 +61,7 @@ void Planner::Pipeline::reset() {
   escape_.reset();
   way_out_.reset();
   room_.reset();
+  back_ = 0.0;
   failed_escapes_.clear();
   passing_off_until_ = stranger_until_ = blocked_since_ = blocked_last_ = -1e9;
   stranger_.reset();
@@ -78,27 +79,13 @@ PlanResult Planner::Pipeline::plan(const PlanRequest& request) {
   traffic_.observe(request);
   validator_.observe({request.map, traffic_.scan(), request.T_odom_scan, traffic_.tracks(), traffic_.peers(), intent_.right});
   if (!hasStrayed(request)) return planFrom(request);
-  const SampledTrajectory stop = safestStop(validator_, request.committed, measuredState(request), limits_, options_.time_step);
-  const PlanRequest as_driven{request.now,
-                              request.start_time,
-                              request.odometry,
-                              request.map,
-                              request.scan,
-                              request.T_odom_scan,
-                              request.tracks,
-                              request.route,
-                              request.goal,
-                              request.goal_tolerance,
-                              stop,
-                              request.id,
-                              request.peers,
-                              request.team_known,
-                              request.at_goal};
+  PlanRequest as_driven = request;
+  as_driven.committed = safestStop(validator_, request.committed, measuredState(request), limits_, options_.time_step);
   busy_until_ = -1e9;
   PlanResult result = planFrom(as_driven);
   if (!result.keep_committed) return result;
   result.keep_committed = false;
-  result.trajectory = stop;
+  result.trajectory = as_driven.committed;
   return result;
 }
 

@@ -242,6 +242,9 @@ TEST_F(PlannerTest, WhoHasBeenDeepInACorridorGoesFirstUntilItIsOut) {
   EXPECT_EQ(priorityAt(18.5), 2.0);
   EXPECT_EQ(priorityAt(4.0), 2.0) << "pushed back, it keeps what it has until it is out";
   EXPECT_EQ(priorityAt(1.5), 1.0);
+  EXPECT_EQ(priorityAt(18.5), 2.0);
+  planner_.reset();
+  EXPECT_EQ(priorityAt(18.5), 1.0) << "where it came from is forgotten";
 }
 
 TEST_F(PlannerTest, BadInputIsNotDrivenOn) {

@@ -86,6 +86,8 @@ TEST(WorldTest, distancesAgreeWithTestingEveryCell) {
       }
     }
     EXPECT_NEAR(world.distanceToSolid(box, 1.5), nearest, 1e-12) << "round " << round;
+    const Box point{box.center, Eigen::Vector2d::UnitX(), 0.0, 0.0};
+    EXPECT_NEAR(world.distanceToSolid(box.center, 0.7), world.distanceToSolid(point, 0.7), 1e-12) << "round " << round;
     EXPECT_EQ(world.overlapsSolid(box), touches) << "round " << round;
     EXPECT_LE(world.freeRadius(box.center), world.distanceToSolid(box.center, 10.0) + 1e-9);
   }

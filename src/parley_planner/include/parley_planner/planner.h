@@ -42,7 +42,7 @@ struct PlanRequest {
   const Route& route;
   Eigen::Vector2d goal;                // [m]
   double goal_tolerance;               // [m]
-  const SampledTrajectory& committed;  // what is being driven; may be empty
+  SampledTrajectory committed;         // what is being driven; may be empty
   std::uint32_t id = 0;                // [-] number of this robot, as teammates know it
   std::vector<PeerMotion> peers = {};  // teammates whose place is known
   bool team_known = false;             // all robots near are among the peers
