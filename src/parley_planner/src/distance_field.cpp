@@ -24,11 +24,11 @@ Corner cornerAt(const GridFrame& frame, const Eigen::Vector2d& p) {
 
 }  // namespace
 
-DistanceField::DistanceField(const GridFrame& frame, const std::vector<unsigned char>& marked, bool rough) : frame_(frame) {
+DistanceField::DistanceField(const GridFrame& frame, const std::vector<unsigned char>& marked) : frame_(frame) {
   cv::Mat seeds(frame.height, frame.width, CV_8UC1);
   std::transform(marked.begin(), marked.end(), seeds.data, [](unsigned char m) { return m ? 0 : 255; });
   cv::Mat pixels;
-  cv::distanceTransform(seeds, pixels, cv::DIST_L2, rough ? cv::DIST_MASK_3 : cv::DIST_MASK_5, CV_32F);
+  cv::distanceTransform(seeds, pixels, cv::DIST_L2, cv::DIST_MASK_PRECISE, CV_32F);
   const auto resolution = static_cast<float>(frame.resolution);
   distances_.resize(marked.size());
   std::transform(pixels.ptr<float>(), pixels.ptr<float>() + marked.size(), distances_.begin(),

@@ -18,8 +18,7 @@ class DistanceField {
 
   DistanceField() = default;
   /// `marked`: frame.width * frame.height, non-zero where there is something.
-  /// `rough`: within 5 % instead of 2 %, in half the time.
-  DistanceField(const GridFrame& frame, const std::vector<unsigned char>& marked, bool rough = false);
+  DistanceField(const GridFrame& frame, const std::vector<unsigned char>& marked);
 
   bool empty() const { return distances_.empty(); }
   const GridFrame& frame() const { return frame_; }

@@ -43,6 +43,7 @@ class EscapeSearch {
     costs_.assign(size, kInfinity);
     parents_.assign(size, -1);
     metres_.assign(size, std::numeric_limits<float>::quiet_NaN());
+    for (const PeerTube& other : task.others) T_others_odom_.push_back(other.pose.inverse());
     for (const PeerTube& tube : task.first) starts_.push_back(placeIn(tube, task.start.position()).along);
     flood();
   }
@@ -113,8 +114,9 @@ class EscapeSearch {
     const double room = roomAt(node), least = task_.footprint.inscribedRadius() + 0.01;
     if (room < (at_start ? 0.02 : least) || (!at_start && task_.surroundings.unseen().at(p) < least)) return -1.0;
     double cost = 1.0 + kRoomWeight * std::max(0.0, kRoom + 0.1 - room);
-    for (const PeerTube& other : task_.others) {
-      const Eigen::Vector2d q = other.pose.inverse() * p;
+    for (std::size_t i = 0; i < task_.others.size(); ++i) {
+      const PeerTube& other = task_.others[i];
+      const Eigen::Vector2d q = T_others_odom_[i] * p;
       const double dx = std::max(0.0, std::abs(q.x()) - 0.5 * other.footprint.length);
       const double dy = std::max(0.0, std::abs(q.y()) - 0.5 * other.footprint.width);
       if (std::hypot(dx, dy) > least + kBodyGap) continue;
@@ -230,8 +232,9 @@ class EscapeSearch {
   const EscapeTask& task_;
   GridFrame frame_;
   std::vector<double> starts_;  // [m] how far along each tube the robot is
-  std::vector<float> costs_;    // [-] of the way from the start
-  std::vector<float> metres_;   // [-] cost of a metre, NaN where nobody asked yet
+  std::vector<Pose2> T_others_odom_;
+  std::vector<float> costs_;   // [-] of the way from the start
+  std::vector<float> metres_;  // [-] cost of a metre, NaN where nobody asked yet
   std::vector<int> parents_;
 };
 

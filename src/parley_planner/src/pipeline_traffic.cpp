@@ -41,15 +41,10 @@ constexpr double kWorthCreeping = 0.3;  // [m] a waiting robot does not move up 
 constexpr double kAnotherEscape = 1.0;  // [m] an escape point further from the last is another one
 constexpr double kCloser = 0.02;        // [m]
 
-bool isIn(const Path& middle, double half_width, const Eigen::Vector2d& p) {
-  for (const Eigen::Vector2d& q : middle) {
-    if ((q - p).squaredNorm() < half_width * half_width) return true;
-  }
-  return false;
-}
-
-bool isUnder(const PeerTube& peer, const Eigen::Vector2d& p, double growth) {
-  return peer.footprint.contains(peer.pose.inverse() * p, growth);
+bool comesUnder(const Path& path, const Blocked::Body& body, double more) {
+  const Pose2 T_body_odom = body.pose.inverse();
+  return std::any_of(path.begin(), path.end(),
+                     [&](const Eigen::Vector2d& p) { return body.footprint.contains(T_body_odom * p, body.growth + more); });
 }
 
 /// In [0, 1), another one for each robot and each time.
@@ -172,37 +167,28 @@ PlanResult Planner::Pipeline::negotiate(const PlanRequest& request, const Trajec
 /// Past those who come towards this robot, each keeping right, and round those who stand and those who go first.
 std::optional<Proposal> Planner::Pipeline::passBy(const TrafficDecision& decision, const Path& desired,
                                                   const PlanRequest& request, const TrajectoryPoint& start) const {
-  struct Strip {
-    Path middle;
-    double half_width;
-  };
-  std::vector<Strip> strips;
-  std::vector<PeerTube> bodies;
+  Blocked blocked;
   const bool keep_right = request.now > passing_off_until_;
   for (const PeerTube& tube : decision.opposite) {
     if (!keep_right) break;
     const double separation = 0.5 * (tube.footprint.width + footprint_.width) + kSeparation;
-    strips.push_back(
-        {keepingRight(tube, desired, separation, surroundings_.obstacles()), 0.5 * tube.footprint.width + kPassingGap});
+    const Path middle = keepingRight(tube, desired, separation, surroundings_.obstacles());
+    blocked.addStrip(middle, 0.5 * tube.footprint.width + kPassingGap);
   }
   for (const PeerTube& tube : decision.first) {
     if (keep_right && among(decision.opposite, tube.id)) continue;
     if (decision.in_the_way) return std::nullopt;
-    strips.push_back({tube.way, 0.5 * tube.footprint.width + kPassingGap});
+    blocked.addStrip(tube.way, 0.5 * tube.footprint.width + kPassingGap);
   }
   for (const PeerTube& tube : traffic_.tubes()) {
-    if (tube.standing && !among(decision.opposite, tube.id) && !among(decision.first, tube.id)) bodies.push_back(tube);
+    if (!tube.standing || among(decision.opposite, tube.id) || among(decision.first, tube.id)) continue;
+    blocked.bodies.push_back({tube.pose, tube.footprint, kPassingGap});
   }
   const double corner = footprint_.inscribedRadius() + kCloser;
-  const bool any_near = std::any_of(bodies.begin(), bodies.end(), [&](const PeerTube& body) {
-    return std::any_of(desired.begin(), desired.end(),
-                       [&](const Eigen::Vector2d& p) { return isUnder(body, p, corner + kPassingGap); });
-  });
-  if (strips.empty() && !any_near) return std::nullopt;
-  const Surroundings shape = surroundings_.with([&](const Eigen::Vector2d& p) {
-    return std::any_of(strips.begin(), strips.end(), [&](const Strip& s) { return isIn(s.middle, s.half_width, p); }) ||
-           std::any_of(bodies.begin(), bodies.end(), [&](const PeerTube& body) { return isUnder(body, p, kPassingGap); });
-  });
+  const bool any_near = std::any_of(blocked.bodies.begin(), blocked.bodies.end(),
+                                    [&](const Blocked::Body& body) { return comesUnder(desired, body, corner); });
+  if (blocked.discs.empty() && !any_near) return std::nullopt;
+  const Surroundings shape = surroundings_.with(blocked);
   Attempt how = usualAttempt();
   how.shape = &shape;
   how.whole = true;
@@ -224,10 +210,9 @@ PlanResult Planner::Pipeline::makeRoom(const TrafficDecision& decision, const Pl
     return standStill(request, start, PlanCode::kYielding, "another goes first");
   }
   escape_.reset();
-  const Surroundings shape = surroundings_.with([&](const Eigen::Vector2d& p) {
-    return std::any_of(decision.first.begin(), decision.first.end(),
-                       [&](const PeerTube& tube) { return isIn(tube.way, 0.5 * tube.footprint.width + kPassingGap, p); });
-  });
+  Blocked blocked;
+  for (const PeerTube& tube : decision.first) blocked.addStrip(tube.way, 0.5 * tube.footprint.width + kPassingGap);
+  const Surroundings shape = surroundings_.with(blocked);
   Attempt how = usualAttempt();
   how.shape = &shape;
   how.trim = kStandOff;
@@ -309,10 +294,9 @@ std::optional<Proposal> Planner::Pipeline::escapeAlong(const Path& path, const P
   std::optional<Proposal> proposal = along(straight, how, start);
   if (proposal || !stands(start.twist) || request.now - squeezed_at_ < kSqueezePeriod) return proposal;
   squeezed_at_ = request.now;
-  const Surroundings shape = surroundings_.with([&](const Eigen::Vector2d& p) {
-    return std::any_of(traffic_.tubes().begin(), traffic_.tubes().end(),
-                       [&](const PeerTube& tube) { return isUnder(tube, p, tube.margin); });
-  });
+  Blocked blocked;
+  for (const PeerTube& tube : traffic_.tubes()) blocked.bodies.push_back({tube.pose, tube.footprint, tube.margin});
+  const Surroundings shape = surroundings_.with(blocked);
   how.shape = &shape;
   how.squeeze = true;
   return along(straight, how, start);

@@ -123,7 +123,7 @@ std::vector<float> SightLaw::roomsOf(const Surroundings& surroundings, double no
   }
   if (cv::countNonZero(fresh) == 0) return rooms;
   cv::Mat1f without;
-  cv::distanceTransform(free, without, cv::DIST_L2, cv::DIST_MASK_3, CV_32F);
+  cv::distanceTransform(free, without, cv::DIST_L2, cv::DIST_MASK_PRECISE, CV_32F);
   const int reach = static_cast<int>(std::lround(kFreshReach / kCell));
   cv::dilate(fresh, fresh, cv::Mat(), {-1, -1}, reach);
   for (int i = 0; i < w * h; ++i) {
@@ -213,11 +213,12 @@ void SightLaw::observe(const Surroundings& surroundings, const ObstacleScan& sca
   followLost(tracks, prices, unseen, now);
   followWalkers(tracks, pose, now);
   // How far off it is from everywhere; nothing comes through the robot from behind.
+  const Pose2 T_base_odom = pose.inverse();
   Costs sources(possible_.size(), 2 * kFar);
   for (std::size_t i = 0; i < sources.size(); ++i) {
     if ((possible_[i] && middle[i]) || lost_[i]) sources[i] = 0;
     const Eigen::Vector2i cell(static_cast<int>(i) % frame_.width, static_cast<int>(i) / frame_.width);
-    const Eigen::Vector2d p_base = pose.inverse() * frame_.centerOf(cell);
+    const Eigen::Vector2d p_base = T_base_odom * frame_.centerOf(cell);
     if (std::abs(p_base.y()) < kWallHalfWidth && p_base.x() < -kWallBehind && p_base.x() > -kWallBehind - 0.3) {
       prices[i] = 0;
       sources[i] = 2 * kFar;

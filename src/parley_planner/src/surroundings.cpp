@@ -51,13 +51,45 @@ Mask unseenMask(const LocalMap& map) {
   return mask;
 }
 
+/// Marks the cells whose centres are in a part of the plane that lies in the square of `reach` [m] around `center`.
+template <class Contains>
+void mark(const GridFrame& frame, const Eigen::Vector2d& center, double reach, const Contains& contains, Mask& mask) {
+  const Eigen::Vector2i last(frame.width - 1, frame.height - 1);
+  const Eigen::Vector2i low = frame.cellOf(center - Eigen::Vector2d::Constant(reach)).cwiseMax(0);
+  const Eigen::Vector2i high = frame.cellOf(center + Eigen::Vector2d::Constant(reach)).cwiseMin(last);
+  for (int y = low.y(); y <= high.y(); ++y) {
+    for (int x = low.x(); x <= high.x(); ++x) {
+      if (contains(frame.centerOf({x, y}))) mask[static_cast<std::size_t>(frame.indexOf({x, y}))] = 1;
+    }
+  }
+}
+
 }  // namespace
+
+void Blocked::addStrip(const std::vector<Eigen::Vector2d>& middle, double half_width) {
+  for (const Eigen::Vector2d& p : middle) discs.push_back({p, half_width});
+}
 
 Surroundings::Surroundings(const LocalMap& map, const ObstacleScan& scan, const Pose2& T_odom_scan,
                            const std::vector<TrackedObject>& tracks)
-    : mask_(obstacleMask(map, scan, T_odom_scan, tracks)),
-      obstacles_(map.frame, mask_),
-      unseen_(map.frame, unseenMask(map), true) {}
+    : mask_(obstacleMask(map, scan, T_odom_scan, tracks)), obstacles_(map.frame, mask_), unseen_(map.frame, unseenMask(map)) {}
+
+Surroundings Surroundings::with(const Blocked& blocked) const {
+  Surroundings result = *this;
+  for (const auto& [center, radius] : blocked.discs) {
+    const double most = radius * radius;
+    const auto contains = [c = center, most](const Eigen::Vector2d& p) { return (c - p).squaredNorm() < most; };
+    mark(frame(), center, radius, contains, result.mask_);
+  }
+  for (const Blocked::Body& body : blocked.bodies) {
+    const Pose2 T_body_odom = body.pose.inverse();
+    const auto contains = [&](const Eigen::Vector2d& p) { return body.footprint.contains(T_body_odom * p, body.growth); };
+    const double reach = body.footprint.circumscribedRadius() + std::sqrt(2.0) * body.growth;
+    mark(frame(), body.pose.position(), reach, contains, result.mask_);
+  }
+  result.obstacles_ = DistanceField(frame(), result.mask_);
+  return result;
+}
 
 FootprintProbe::FootprintProbe(const Footprint& footprint) : inscribed_(footprint.inscribedRadius()) {
   const double half_long = 0.5 * std::max(footprint.length, footprint.width);

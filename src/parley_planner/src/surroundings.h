@@ -11,6 +11,24 @@
 
 namespace parley {
 
+/// Places that are no obstacles, but that the robot means to leave free.
+struct Blocked {
+  struct Disc {
+    Eigen::Vector2d center;  // [m]
+    double radius;           // [m] open: its rim is free
+  };
+  struct Body {
+    Pose2 pose;
+    Footprint footprint;
+    double growth;  // [m] on each side
+  };
+  std::vector<Disc> discs;
+  std::vector<Body> bodies;
+
+  /// All that is nearer than `half_width` [m] to one of the points of `middle`.
+  void addStrip(const std::vector<Eigen::Vector2d>& middle, double half_width);
+};
+
 /// What the robot must not touch and what it has not seen, as distance fields over the local map's window.
 class Surroundings {
  public:
@@ -19,18 +37,8 @@ class Surroundings {
   /// where they will be, not where they are.
   Surroundings(const LocalMap& map, const ObstacleScan& scan, const Pose2& T_odom_scan, const std::vector<TrackedObject>& tracks);
 
-  /// The same with more obstacles: those where `blocked(p)` holds.
-  template <class Blocked>
-  Surroundings with(const Blocked& blocked) const {
-    std::vector<unsigned char> mask = mask_;
-    for (int i = 0; i < static_cast<int>(mask.size()); ++i) {
-      const Eigen::Vector2i cell(i % frame().width, i / frame().width);
-      if (!mask[static_cast<std::size_t>(i)] && blocked(frame().centerOf(cell))) mask[static_cast<std::size_t>(i)] = 1;
-    }
-    Surroundings result = *this;
-    result.obstacles_ = DistanceField(frame(), mask);
-    return result;
-  }
+  /// The same with more obstacles.
+  Surroundings with(const Blocked& blocked) const;
   bool empty() const { return obstacles_.empty(); }
   const GridFrame& frame() const { return obstacles_.frame(); }
   const DistanceField& obstacles() const { return obstacles_; }

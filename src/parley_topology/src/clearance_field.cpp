@@ -146,7 +146,7 @@ FieldImage measure(const TiledMap& map, const CellRect& rect, const FieldShape& 
   const auto is_free = [](const Tile& tile, std::size_t i) -> std::uint8_t { return tile.flags[i] & kFused ? 0 : 255; };
   const cv::Mat1b source = picture<std::uint8_t>(map, rect.grown(halo + 1), 255, is_free);
   cv::Mat1f cells;
-  cv::distanceTransform(source, cells, cv::DIST_L2, cv::DIST_MASK_5, CV_32F);
+  cv::distanceTransform(source, cells, cv::DIST_L2, cv::DIST_MASK_PRECISE, CV_32F);
 
   FieldImage image;
   image.rect = rect;
