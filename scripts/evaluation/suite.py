@@ -29,12 +29,15 @@ def seeds_of(case, arguments):
 
 
 def plan(arguments):
-    """Every run of the suite, the longest first: (label, scenario, seed) with what is expected of it."""
+    """Every run of the suite: its world, scenario and seed, and what is expected of it."""
     cases = load()
     if arguments.quick:
         cases = [case for case in cases if case.get("quick")]
     cases += [{"name": path.stem, "scenario": str(path.resolve())} for path in arguments.worlds]
     if arguments.cases is not None:
+        for name in arguments.cases:
+            if not any(case["name"].startswith(name) for case in cases):
+                raise SystemExit(f"--cases: {name}: no case begins like this; they are in {CASES}")
         cases = [case for case in cases if any(case["name"].startswith(name) for name in arguments.cases)]
     jobs = []
     for case in cases:
