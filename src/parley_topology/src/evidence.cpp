@@ -42,6 +42,11 @@ void addToTile(Tile& tile, const ScanImage& image, const CellRect& part, std::ui
       const std::uint8_t mark = row[x];
       if (mark == kNothing || mark == kKeep) continue;
       const std::size_t i = offsetOf(x, y);
+      if (mark == kPassing) {
+        // What comes to a stand here was not always here. Walls that are known already stay what they are.
+        if (!(tile.flags[i] & kOwn)) tile.flags[i] = static_cast<std::uint8_t>(tile.flags[i] | kOnceFree);
+        continue;
+      }
       tile.looked[i] = second;
       if (overrules(tile, i, mark)) tile.changed_cells = static_cast<std::uint16_t>(tile.changed_cells | blockBit(x, y));
       const int before{tile.evidence[i]};

@@ -13,6 +13,7 @@ constexpr double kLongestRange = 100.0;  // [m] longer rays are cut: bounds the 
 struct Ray {
   bool looked = false;
   bool hit = false;
+  bool passing = false;
   Eigen::Vector2d end = Eigen::Vector2d::Zero();    // [m] odom
   Eigen::Vector2d clear = Eigen::Vector2d::Zero();  // [m] odom, as far as it clears
 };
@@ -33,6 +34,7 @@ std::vector<Ray> castRays(const ObstacleScan& scan, const Pose2& T_odom_base, do
     ray.end = eye + std::min(range, reach) * along;
     ray.clear = eye + std::max(0.0, std::min(range, reach) - clear_margin) * along;
     const bool transient = i < scan.transient.size() && scan.transient[i];
+    ray.passing = ray.hit && transient;
     ray.hit = ray.hit && !transient;
   }
   return rays;
@@ -65,6 +67,9 @@ void drawHits(cv::Mat1b& marks, const std::vector<Ray>& rays, const Canvas& canv
     const Ray& after = rays[(i + 1) % rays.size()];
     if (!ray.hit || !after.hit || (ray.end - after.end).squaredNorm() > kSurfaceGap * kSurfaceGap) continue;
     cv::line(marks, canvas.at(ray.end), canvas.at(after.end), cv::Scalar(kKeep), 1, cv::LINE_8, kShift);
+  }
+  for (const Ray& ray : rays) {
+    if (ray.passing) marks(canvas.pixel(ray.end)) = kPassing;
   }
   for (const Ray& ray : rays) {
     if (ray.hit) marks(canvas.pixel(ray.end)) = kHit;

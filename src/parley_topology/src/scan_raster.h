@@ -11,7 +11,7 @@
 namespace parley {
 
 /// What a scan says of a cell. A greater one wins over a lesser one.
-enum ScanMark : std::uint8_t { kNothing = 0, kClear = 1, kKeep = 2, kUnderRobot = 3, kHit = 4 };
+enum ScanMark : std::uint8_t { kNothing = 0, kClear = 1, kKeep = 2, kPassing = 3, kUnderRobot = 4, kHit = 5 };
 
 /// A scan drawn as an image of marks whose first pixel is the cell (x0, y0).
 struct ScanImage {
@@ -24,7 +24,8 @@ struct ScanImage {
 bool isUsable(const ObstacleScan& scan, const Pose2& T_odom_base);
 
 /// Draws a scan. Clear: the polygon of the rays' ends, each `clear_margin` [m] short of its hit. Kept as it is: the line
-/// between neighbouring hits on one surface, lest rays that graze a wall erase it. Hit: where rays end.
+/// between neighbouring hits on one surface, lest rays that graze a wall erase it. Passing: where rays end on what moves. Hit:
+/// where rays end on the rest.
 ScanImage drawScan(const ObstacleScan& scan, const Pose2& T_odom_base, const Footprint& footprint, double clear_margin,
                    double resolution);
 

@@ -18,6 +18,7 @@ class Mapping {
   bool isOccupied(double x, double y) const { return at(x, y) & kOwn; }
   bool isFree(double x, double y) const { return (at(x, y) & kSeen) && !(at(x, y) & kOwn); }
   bool isUnknown(double x, double y) const { return !(at(x, y) & kSeen); }
+  bool hasCome(double x, double y) const { return (at(x, y) & kCame) == kCame; }
   int occupiedCells() const {
     int count = 0;
     for (const auto& tile : map.tiles()) {
@@ -108,6 +109,23 @@ TEST(Evidence, transientHitsClearButAreNotMapped) {
   EXPECT_TRUE(mapping.isFree(1.5, 0.0));
   EXPECT_TRUE(mapping.isUnknown(2.5, 0.0));
   EXPECT_TRUE(mapping.isFree(-2.5, 0.0));
+}
+
+TEST(Evidence, whatMovedUpToWhereItStandsHasCome) {
+  Mapping mapping;
+  ObstacleScan scan = emptyScan();
+  for (std::size_t i = 340; i < 380; ++i) scan.ranges[i] = 2.03F;
+  for (std::size_t i = 0; i < 20; ++i) scan.ranges[i] = 3.0F;
+  for (int k = 0; k < 3; ++k) {
+    scan.transient.assign(720, false);
+    for (std::size_t i = 340; i < 380; ++i) scan.transient[i] = k == 0;  // afterwards it stands
+    for (std::size_t i = 0; i < 20; ++i) scan.transient[i] = k == 2;     // somebody moves right before a known wall
+    mapping.add(scan, {});
+  }
+  EXPECT_TRUE(mapping.isOccupied(2.02, 0.01));
+  EXPECT_TRUE(mapping.hasCome(2.02, 0.01));
+  EXPECT_TRUE(mapping.isOccupied(-3.0, -0.01));
+  EXPECT_FALSE(mapping.hasCome(-3.0, -0.01));
 }
 
 TEST(Evidence, binsThatDidNotLookDoNothing) {
