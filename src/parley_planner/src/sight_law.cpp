@@ -205,8 +205,8 @@ void SightLaw::observe(const Surroundings& surroundings, const ObstacleScan& sca
   const Mask middle = middleOfWays(rooms);
   Mask prices(possible_.size(), 0);
   for (std::size_t i = 0; i < prices.size(); ++i) {
-    const double room = static_cast<double>(rooms[i]);
-    if (room >= options_.intruder_radius - 0.5 * kCell) prices[i] = room < options_.intruder_clearance ? kSlowPrice : 1;
+    const bool fits = static_cast<double>(rooms[i]) >= options_.intruder_radius - 0.5 * kCell;
+    if (fits) prices[i] = middle[i] ? 1 : kSlowPrice;
   }
   const Mask unseen = hidden(seen_through);
   possible_ = driven(possible_, prices, unseen, now - updated_at_);
