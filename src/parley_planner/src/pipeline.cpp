@@ -115,6 +115,9 @@ PlanResult Planner::Pipeline::planFrom(const PlanRequest& request) {
     if (const std::optional<PlanResult> result = makeWay(request, start, start.pose.position())) return *result;
     tell(ownRight(request), {start.pose.position()});
     look(request, start);
+    local_goal_ = start.pose.position();
+    if (const std::optional<PlanResult> result = makeRoomForStranger(request, start)) return *result;
+    if (options_.conflict_resolution && stands(start.twist)) standOff(request, start);
     return valid && heedsSight(start) ? keep(PlanCode::kNoRoute, "no route")
                                       : brake(request, start, PlanCode::kNoRoute, "no route");
   }
@@ -216,11 +219,7 @@ bool Planner::Pipeline::heedsSight(const TrajectoryPoint& start) const { return 
 PlanResult Planner::Pipeline::replan(const PlanRequest& request, const TrajectoryPoint& start, bool committed_valid) {
   planned_at_ = request.now;
   look(request, start);
-  if (stranger_ && request.now < stranger_until_) {
-    TrafficDecision decision{ownRight(request), {*stranger_}, {}, true};
-    tell(decision.right, {start.pose.position()});
-    return makeRoom(decision, request, start);
-  }
+  if (const std::optional<PlanResult> result = makeRoomForStranger(request, start)) return *result;
   if (options_.conflict_resolution && isNearPeers(request)) return negotiate(request, start, committed_valid);
   tell(ownRight(request), {start.pose.position()});
   return decided(request, start, bestProposal(request, start), committed_valid);
@@ -234,7 +233,7 @@ PlanResult Planner::Pipeline::decided(const PlanRequest& request, const Trajecto
                ? keep(stands(start.twist) ? PlanCode::kWaiting : PlanCode::kDriving, "waiting for a teammate")
                : brake(request, start, PlanCode::kWaiting, "waiting for a teammate");
   }
-  if (options_.conflict_resolution && stands(start.twist) && somethingMoved(request)) standOff(request, start);
+  if (options_.conflict_resolution && stands(start.twist)) standOff(request, start);
   const std::string why = somethingMoved(request) ? "blocked by something that moved" : "blocked";
   if (committed_valid && heedsSight(start)) return keep(stands(start.twist) ? PlanCode::kBlocked : PlanCode::kDriving, why);
   return brake(request, start, PlanCode::kBlocked, why);

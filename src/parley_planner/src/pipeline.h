@@ -67,6 +67,7 @@ class Planner::Pipeline {
   std::optional<Proposal> escapeAlong(const Path& path, const PlanRequest& request, const TrajectoryPoint& start);
   void findWayOut(const TrafficDecision& decision, const PlanRequest& request, const TrajectoryPoint& start);
   PlanResult leave(const PlanRequest& request, const TrajectoryPoint& start, bool committed_valid);
+  std::optional<PlanResult> makeRoomForStranger(const PlanRequest& request, const TrajectoryPoint& start);
   void standOff(const PlanRequest& request, const TrajectoryPoint& start);
   PlanResult standStill(const PlanRequest& request, const TrajectoryPoint& start, PlanCode code, const std::string& why);
   bool isTouched(const PlanRequest& request);
@@ -103,6 +104,7 @@ class Planner::Pipeline {
   double blocked_since_ = -1e9;                                     // [s] by something that moves and is not heard
   double blocked_last_ = -1e9;                                      // [s]
   std::uint32_t stand_offs_ = 0;
+  int stand_offs_in_row_ = 0;
   Eigen::Vector2d shut_in_at_ = Eigen::Vector2d::Zero();
   std::optional<Eigen::Vector2d> way_out_;  // [m] of where it is shut in
   double passing_off_until_ = -1e9;         // [s] passing by did not work

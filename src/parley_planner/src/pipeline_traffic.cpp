@@ -25,6 +25,8 @@ constexpr double kOut = 0.7;            // [m] from the place where it wanted to
 constexpr double kBlockedBreak = 1.0;   // [s]
 constexpr double kLeastPatience = 2.0;  // [s] a robot waits for a stranger to go away,
 constexpr double kMorePatience = 5.0;   // [s] or up to so much longer
+constexpr double kSameStandOff = 20.0;  // [s] after one, the next is another try at the same
+constexpr int kMostDoublings = 3;       // [-] of the time for which room is made
 constexpr double kStrangerReach = 5.0;  // [m] behind this robot
 constexpr double kWaitingGap = 0.8;     // [m] to a peer that this robot waits for
 constexpr double kTellReach = 8.0;      // [m] of the way that is told
@@ -302,9 +304,17 @@ std::optional<Proposal> Planner::Pipeline::escapeAlong(const Path& path, const P
   return along(straight, how, start);
 }
 
+std::optional<PlanResult> Planner::Pipeline::makeRoomForStranger(const PlanRequest& request, const TrajectoryPoint& start) {
+  if (!stranger_ || request.now >= stranger_until_) return std::nullopt;
+  const TrafficDecision decision{ownRight(request), {*stranger_}, {}, true};
+  tell(decision.right, {start.pose.position()});
+  return makeRoom(decision, request, start);
+}
+
 /// Blocked by somebody who is not heard. Nothing can be agreed: after a while of its own choice, different for each robot and
-/// each time, it makes room as if the other wanted to pass right through it, for a while of its own choice.
+/// each time, it makes room as if the other wanted to pass right through it, for a while of its own choice, each time longer.
 void Planner::Pipeline::standOff(const PlanRequest& request, const TrajectoryPoint& start) {
+  if (!somethingMoved(request)) return;
   if (request.now - blocked_last_ > kBlockedBreak) blocked_since_ = request.now;
   blocked_last_ = request.now;
   const double patience = kLeastPatience + kMorePatience * shareOf(request.id, stand_offs_);
@@ -318,7 +328,9 @@ void Planner::Pipeline::standOff(const PlanRequest& request, const TrajectoryPoi
   if (nearest == traffic_.tracks().end() || !nearest->has_moved) return;
   ++stand_offs_;
   blocked_since_ = request.now;
-  stranger_until_ = request.now + kLeastPatience + kMorePatience * shareOf(request.id, stand_offs_ + 1000);
+  stand_offs_in_row_ = request.now - stranger_until_ < kSameStandOff ? stand_offs_in_row_ + 1 : 0;
+  const double longer = std::exp2(std::min(kMostDoublings, stand_offs_in_row_));
+  stranger_until_ = request.now + longer * (kLeastPatience + kMorePatience * shareOf(request.id, stand_offs_ + 1000));
   const Eigen::Vector2d towards = (here - nearest->position).normalized();
   const Path through = {nearest->position, here, here + kStrangerReach * towards};
   stranger_ = PeerTube{0,

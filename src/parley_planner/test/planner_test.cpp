@@ -142,6 +142,32 @@ TEST_F(PlannerTest, WithoutARouteWhatIsCommittedStands) {
   EXPECT_TRUE(result.keep_committed);
 }
 
+TEST_F(PlannerTest, WhomAStrangerLeavesNoRouteMakesRoomAfterAWhile) {
+  route_ = {};
+  committed_ = SampledTrajectory::standing(odometry_.pose, 0.0);
+  TrackedObject stranger;
+  stranger.position = {4.2, 5.0};
+  stranger.radius = 0.4;
+  stranger.observations = 20;
+  const auto furthestIn = [this](double from, double to) {
+    double furthest = 0.0;
+    for (double now = from; now < to; now += 0.1) {
+      odometry_.pose = committed_.at(now).pose;
+      odometry_.twist = committed_.at(now).twist;
+      scan_.stamp = now;
+      const PlanResult result = plan(now);
+      if (!result.keep_committed) committed_ = result.trajectory;
+      furthest = std::max(furthest, (odometry_.pose.position() - Eigen::Vector2d(3.0, 5.0)).norm());
+    }
+    return furthest;
+  };
+  tracks_ = {stranger};
+  EXPECT_LT(furthestIn(0.0, 10.0), 0.01) << "what never moved does not go away for room";
+  tracks_.front().has_moved = true;
+  EXPECT_LT(furthestIn(10.0, 11.5), 0.01) << "it may go by itself";
+  EXPECT_GT(furthestIn(11.5, 25.0), 0.3);
+}
+
 TEST_F(PlannerTest, WhatIsCommittedIsKeptNoFasterThanSightAllows) {
   committed_ = plan(0.0).trajectory;
   const TrajectoryPoint there = committed_.at(1.2);
