@@ -41,8 +41,9 @@ class LaunchFiles(unittest.TestCase):
             model = os.path.basename(path)[:-len('.yaml')]
             dump = roslaunch('--dump-params', os.path.join(LAUNCH, 'robot.launch'), 'model:=' + model, 'frame_prefix:=r/')
             parameters = yaml.safe_load(dump)
-            for stage in ('lidar', 'topology', 'planner', 'control'):
+            for stage in ('local', 'lidar', 'topology', 'planner', 'control'):
                 self.assertEqual(parameters[f'/{stage}/frames/odom'], 'r/odom')
+                self.assertEqual(parameters[f'/{stage}/frames/local'], 'r/local')
                 self.assertGreater(parameters[f'/{stage}/robot/footprint/length'], 0.0)
                 self.assertGreater(parameters[f'/{stage}/wiring/plan_rate'], 0.0)
             self.assertGreater(parameters['/planner/goal/tolerance'], 0.0)
@@ -68,9 +69,9 @@ class LaunchFiles(unittest.TestCase):
             parameters = yaml.safe_load(roslaunch('--dump-params', *words))
             self.assertGreater(parameters['/odometry/longest_gap'], 0.0)
             arguments = roslaunch('--args', 'robot', *words)
-            self.assertIn(' odometry lidar', arguments)
+            self.assertIn(' odometry local lidar', arguments)
             self.assertIn('lidar_odometry:=/Odometry', arguments)
-        self.assertNotIn('odometry', roslaunch('--args', 'robot', os.path.join(LAUNCH, 'robot.launch'), 'model:=courier'))
+        self.assertNotIn('odometry ', roslaunch('--args', 'robot', os.path.join(LAUNCH, 'robot.launch'), 'model:=courier'))
 
     def test_a_robot_without_model_is_refused(self):
         with self.assertRaises(AssertionError):

@@ -60,7 +60,7 @@ void ControlNode::takeInputs(const OdometryBuffer& odometry) {
   if (const auto message = new_goal_.take()) has_goal_ = message->active;
   if (const auto message = new_trajectory_.take()) {
     const std::optional<TimedPlan> plan = fromMessage(*message);
-    if (plan && message->header.frame_id == config_.node.frames.odom && continuity_.isCurrent(plan->made_at)) {
+    if (plan && message->header.frame_id == config_.node.frames.local && continuity_.isCurrent(plan->made_at)) {
       plan_.offer(plan->result, plan->made_at, plan->start_time);
     } else {
       ++rejected_;

@@ -16,8 +16,10 @@ namespace {
 
 using ActionServer = actionlib::SimpleActionServer<move_base_msgs::MoveBaseAction>;
 
+constexpr double kMoved = 0.005;  // [m] less is not worth another route
+
 struct Brought {
-  std::optional<Eigen::Vector2d> goal_odom;
+  std::optional<Eigen::Vector2d> place;
   std::string problem;
 };
 
@@ -26,66 +28,74 @@ Brought refusedBecause(const std::string& problem) { return {std::nullopt, probl
 }  // namespace
 
 struct GoalInput::Parts {
-  Parts(const ros::NodeHandle& nh, const std::string& odom)
-      : odom_frame(odom), listener(buffer), action(nh, "move_base", false) {}
+  Parts(const ros::NodeHandle& nh, const Frames& names) : frames(names), listener(buffer), action(nh, "move_base", false) {}
 
+  Brought brought(const Eigen::Vector2d& p, const std::string& from, const std::string& to) const;
   Brought toOdom(const geometry_msgs::PoseStamped& pose) const;
+  /// The goal in the local frame; empty as long as nobody has told where that is.
+  std::optional<Eigen::Vector2d> local() const { return brought(*goal_odom, frames.odom, frames.local).place; }
   void onTopic(const geometry_msgs::PoseStamped& pose);
   void onAction();
   void onPreempt();
-  void order(const std::optional<Eigen::Vector2d>& goal_odom);
+  void order(const std::optional<Eigen::Vector2d>& goal);
 
-  std::string odom_frame;
+  Frames frames;
   tf2_ros::Buffer buffer;
   tf2_ros::TransformListener listener;
   std::mutex mutex;
-  std::optional<GoalOrder> newest;
+  std::optional<Eigen::Vector2d> goal_odom;              // [m] nothing: stand
+  bool is_new = false;                                   // not taken yet
+  Eigen::Vector2d told_local = Eigen::Vector2d::Zero();  // [m] the goal as it was taken
   std::atomic<int> refused{0};
   ActionServer action;
   ros::Subscriber topic;
 };
 
 /// The newest transform counts: a goal is where people see it now, whatever the stamp that their tool has given it.
-Brought GoalInput::Parts::toOdom(const geometry_msgs::PoseStamped& pose) const {
-  const Eigen::Vector2d p(pose.pose.position.x, pose.pose.position.y);
-  const std::string& frame = pose.header.frame_id;
-  if (!p.allFinite()) return refusedBecause("the goal is not finite");
-  if (frame == odom_frame) return {p, ""};
+Brought GoalInput::Parts::brought(const Eigen::Vector2d& p, const std::string& from, const std::string& to) const {
+  if (from == to) return {p, ""};
   try {
-    const geometry_msgs::TransformStamped t = buffer.lookupTransform(odom_frame, frame, ros::Time(0));
+    const geometry_msgs::TransformStamped t = buffer.lookupTransform(to, from, ros::Time(0));
     const std::optional<Attitude> attitude = attitudeOf(t.transform.rotation);
-    if (!attitude) return refusedBecause("the transform from " + frame + " to " + odom_frame + " has no rotation");
-    const Pose2 T_odom_frame{t.transform.translation.x, t.transform.translation.y, attitude->yaw};
-    return {T_odom_frame * p, ""};
+    if (!attitude) return refusedBecause("the transform from " + from + " to " + to + " has no rotation");
+    const Pose2 T_to_from{t.transform.translation.x, t.transform.translation.y, attitude->yaw};
+    return {T_to_from * p, ""};
   } catch (const tf2::TransformException& error) {
-    return refusedBecause("no transform from '" + frame + "' to " + odom_frame + ": " + error.what());
+    return refusedBecause("no transform from '" + from + "' to " + to + ": " + error.what());
   }
 }
 
-void GoalInput::Parts::order(const std::optional<Eigen::Vector2d>& goal_odom) {
+Brought GoalInput::Parts::toOdom(const geometry_msgs::PoseStamped& pose) const {
+  const Eigen::Vector2d p(pose.pose.position.x, pose.pose.position.y);
+  if (!p.allFinite()) return refusedBecause("the goal is not finite");
+  return brought(p, pose.header.frame_id, frames.odom);
+}
+
+void GoalInput::Parts::order(const std::optional<Eigen::Vector2d>& goal) {
   const std::lock_guard<std::mutex> lock(mutex);
-  newest = GoalOrder{goal_odom};
+  goal_odom = goal;
+  is_new = true;
 }
 
 void GoalInput::Parts::onTopic(const geometry_msgs::PoseStamped& pose) {
-  const Brought brought = toOdom(pose);
-  if (!brought.goal_odom) {
+  const Brought goal = toOdom(pose);
+  if (!goal.place) {
     ++refused;
-    ROS_ERROR_STREAM("goal refused: " << brought.problem);
+    ROS_ERROR_STREAM("goal refused: " << goal.problem);
     return;
   }
   if (action.isActive()) action.setPreempted({}, "a goal came on move_base_simple/goal");
-  order(brought.goal_odom);
+  order(goal.place);
 }
 
 void GoalInput::Parts::onAction() {
-  const auto goal = action.acceptNewGoal();
-  const Brought brought = toOdom(goal->target_pose);
-  if (!brought.goal_odom) {
+  const auto accepted = action.acceptNewGoal();
+  const Brought goal = toOdom(accepted->target_pose);
+  if (!goal.place) {
     ++refused;
-    action.setAborted({}, "goal refused: " + brought.problem);
+    action.setAborted({}, "goal refused: " + goal.problem);
   }
-  order(brought.goal_odom);
+  order(goal.place);
 }
 
 void GoalInput::Parts::onPreempt() {
@@ -94,7 +104,7 @@ void GoalInput::Parts::onPreempt() {
   if (!replaced) order(std::nullopt);
 }
 
-GoalInput::GoalInput(const ros::NodeHandle& nh, const std::string& odom_frame) : parts_(std::make_unique<Parts>(nh, odom_frame)) {
+GoalInput::GoalInput(const ros::NodeHandle& nh, const Frames& frames) : parts_(std::make_unique<Parts>(nh, frames)) {
   Parts* parts = parts_.get();
   parts->action.registerGoalCallback([parts] { parts->onAction(); });
   parts->action.registerPreemptCallback([parts] { parts->onPreempt(); });
@@ -107,17 +117,36 @@ GoalInput::GoalInput(const ros::NodeHandle& nh, const std::string& odom_frame) :
 GoalInput::~GoalInput() = default;
 
 std::optional<GoalOrder> GoalInput::take() {
-  const std::lock_guard<std::mutex> lock(parts_->mutex);
-  return std::exchange(parts_->newest, std::nullopt);
+  Parts& p = *parts_;
+  const std::lock_guard<std::mutex> lock(p.mutex);
+  if (!p.is_new) return std::nullopt;
+  GoalOrder order;
+  if (p.goal_odom) {
+    order.goal_local = p.local();
+    if (!order.goal_local) return std::nullopt;
+    p.told_local = *order.goal_local;
+  }
+  p.is_new = false;
+  return order;
+}
+
+std::optional<Eigen::Vector2d> GoalInput::moved() {
+  Parts& p = *parts_;
+  const std::lock_guard<std::mutex> lock(p.mutex);
+  if (!p.goal_odom || p.is_new) return std::nullopt;
+  const std::optional<Eigen::Vector2d> place = p.local();
+  if (!place || (*place - p.told_local).norm() < kMoved) return std::nullopt;
+  p.told_local = *place;
+  return place;
 }
 
 bool GoalInput::actionRuns() const { return parts_->action.isActive(); }
 
-void GoalInput::feedback(const Pose2& T_odom_base, double stamp) {
+void GoalInput::feedback(const Pose2& T_local_base, double stamp) {
   move_base_msgs::MoveBaseFeedback feedback;
   feedback.base_position.header.stamp = toRosTime(stamp);
-  feedback.base_position.header.frame_id = parts_->odom_frame;
-  feedback.base_position.pose = toPose(T_odom_base);
+  feedback.base_position.header.frame_id = parts_->frames.local;
+  feedback.base_position.pose = toPose(T_local_base);
   parts_->action.publishFeedback(feedback);
 }
 

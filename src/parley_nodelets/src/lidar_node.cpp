@@ -65,7 +65,7 @@ void LidarNode::process() {
 
 /// Teammates whose returns are to be kept off the map; none where the last message is old.
 std::vector<KnownTeammate> LidarNode::bodies(double now) {
-  if (const auto message = teammates_.take(); message && message->header.frame_id == config_.node.frames.odom) {
+  if (const auto message = teammates_.take(); message && message->header.frame_id == config_.node.frames.local) {
     bodies_ = fromMessage(*message).value_or(std::vector<KnownTeammate>{});
     bodies_stamp_ = message->header.stamp.toSec();
   }
@@ -82,7 +82,7 @@ void LidarNode::publish(const LidarResult& result) {
   ++accepted_;
   last_stamp_ = result.scan.stamp;
   const Frames& frames = config_.node.frames;
-  tracks_.publish(boost::make_shared<parley_msgs::TrackedObjects>(toMessage(result.tracks, last_stamp_, frames.odom)));
+  tracks_.publish(boost::make_shared<parley_msgs::TrackedObjects>(toMessage(result.tracks, last_stamp_, frames.local)));
   obstacles_.publish(boost::make_shared<parley_msgs::ObstacleScan>(toMessage(result.scan, frames.base)));
 }
 

@@ -6,6 +6,7 @@
 
 #include "parley_nodelets/control_node.h"
 #include "parley_nodelets/lidar_node.h"
+#include "parley_nodelets/local_node.h"
 #include "parley_nodelets/odometry_node.h"
 #include "parley_nodelets/planner_node.h"
 #include "parley_nodelets/team_node.h"
@@ -30,6 +31,7 @@ class StageNodelet : public nodelet::Nodelet {
 };
 
 class Odometry : public StageNodelet<parley::OdometryNode> {};
+class Local : public StageNodelet<parley::LocalNode> {};
 class Lidar : public StageNodelet<parley::LidarNode> {};
 class Team : public StageNodelet<parley::TeamNode> {};
 class Topology : public StageNodelet<parley::TopologyNode> {};
@@ -39,6 +41,7 @@ class Control : public StageNodelet<parley::ControlNode> {};
 }  // namespace parley_nodelets
 
 PLUGINLIB_EXPORT_CLASS(parley_nodelets::Odometry, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(parley_nodelets::Local, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(parley_nodelets::Lidar, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(parley_nodelets::Team, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(parley_nodelets::Topology, nodelet::Nodelet)

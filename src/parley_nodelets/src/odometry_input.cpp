@@ -30,7 +30,7 @@ void OdometryInput::onOdometry(const nav_msgs::OdometryConstPtr& message) {
   const std::optional<Odometry> reading = fromMessage(*message);
   const std::lock_guard<std::mutex> lock(mutex_);
   ++counters_.received;
-  if (message->header.frame_id != frames_.odom || message->child_frame_id != frames_.base) {
+  if (message->header.frame_id != frames_.local || message->child_frame_id != frames_.base) {
     ++counters_.wrong_frame;
     return;
   }

@@ -59,7 +59,7 @@ PlannerNode::PlannerNode(ros::NodeHandle nh, const ros::NodeHandle& pnh, const s
   inputs_.expect<nav_msgs::Odometry>(odometry_.subscriber());
   diagnostics_.setHardwareID(config_.node.frames.base);
   diagnostics_.add("stage", [this](Report& status) { report(status); });
-  orders_ = std::make_unique<GoalInput>(nh, config_.node.frames.odom);
+  orders_ = std::make_unique<GoalInput>(nh, config_.node.frames);
   worker_.every(nh, kLookAround / config_.node.wiring.plan_rate, [this] { step(); });
   worker_.every(nh, 1.0, [this] { diagnostics_.update(); });
   worker_.start();
@@ -86,9 +86,12 @@ void PlannerNode::step() {
 
 void PlannerNode::takeOrder(double now) {
   const std::optional<GoalOrder> order = orders_->take();
-  if (!order) return;
-  if (order->goal_odom) {
-    goal_->set(*order->goal_odom);
+  if (!order) {
+    carryGoal(now);
+    return;
+  }
+  if (order->goal_local) {
+    goal_->set(*order->goal_local);
     planner_->reset();
   } else {
     goal_->cancel();
@@ -98,8 +101,17 @@ void PlannerNode::takeOrder(double now) {
   publishGoal(now);
 }
 
+/// Odometry was corrected: the goal stays where it is in its frame.
+void PlannerNode::carryGoal(double now) {
+  const std::optional<Eigen::Vector2d> place = goal_->goal() ? orders_->moved() : std::nullopt;
+  if (!place) return;
+  const Eigen::Vector2d step = *place - *goal_->goal();
+  goal_->carry({step.x(), step.y(), 0.0});
+  publishGoal(now);
+}
+
 bool PlannerNode::isCurrent(const std_msgs::Header& header) const {
-  return header.frame_id == config_.node.frames.odom && continuity_.isCurrent(header.stamp.toSec());
+  return header.frame_id == config_.node.frames.local && continuity_.isCurrent(header.stamp.toSec());
 }
 
 void PlannerNode::takeInputs(const OdometryBuffer& odometry) {
@@ -191,7 +203,7 @@ PlanResult PlannerNode::plan(double now, const Odometry& odometry, bool at_goal)
 }
 
 void PlannerNode::publish(const TimedPlan& plan) {
-  const std::string& odom = config_.node.frames.odom;
+  const std::string& odom = config_.node.frames.local;
   trajectory_.publish(boost::make_shared<parley_msgs::Trajectory>(toMessage(plan, odom)));
   if (path_.getNumSubscribers() > 0 && !plan.result.keep_committed) {
     path_.publish(boost::make_shared<nav_msgs::Path>(toPath(plan.result.trajectory, plan.made_at, odom)));
@@ -201,7 +213,7 @@ void PlannerNode::publish(const TimedPlan& plan) {
 void PlannerNode::publishGoal(double now) {
   auto message = boost::make_shared<parley_msgs::Goal>();
   message->header.stamp = ros::Time(now);
-  message->header.frame_id = config_.node.frames.odom;
+  message->header.frame_id = config_.node.frames.local;
   message->active = goal_->goal().has_value();
   if (message->active) {
     message->position.x = goal_->goal()->x();

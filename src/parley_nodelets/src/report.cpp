@@ -17,7 +17,7 @@ void reportOdometry(Report& report, const OdometrySnapshot& odometry, const Fram
   report.add("odometry jumps", counters.jumps);
   report.add("time resets", counters.time_resets);
   if (counters.wrong_frame > 0) {
-    report.mergeSummaryf(Report::WARN, "odometry is not from %s to %s", frames.odom.c_str(), frames.base.c_str());
+    report.mergeSummaryf(Report::WARN, "odometry is not from %s to %s", frames.local.c_str(), frames.base.c_str());
   }
   if (odometry.buffer.empty()) {
     report.mergeSummary(Report::WARN, "no odometry");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A robot's nodelet manager: loads the stages that its arguments name ("robot lidar topology planner control"), offers
+// A robot's nodelet manager: loads the stages that its arguments name ("robot local lidar topology planner control"), offers
 // the services of a nodelet manager so that a driver can join, and unloads all of them before ROS ends.
 #include <nodelet/loader.h>
 #include <ros/console.h>
@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
   ros::NodeHandle nh;
   exit.answerShutdownRequests();
   if (stages.empty()) {
-    ROS_FATAL("usage: robot STAGE...   (odometry lidar topology planner control team)");
+    ROS_FATAL("usage: robot STAGE...   (odometry local lidar topology planner control team)");
     return 2;
   }
 

@@ -108,7 +108,7 @@ void TeamNode::takeInputs() {
   }
   if (const auto message = new_trajectory_.take()) {
     const std::optional<TimedPlan> plan = fromMessage(*message);
-    if (plan && message->header.frame_id == config_.node.frames.odom && continuity_.isCurrent(plan->made_at)) {
+    if (plan && message->header.frame_id == config_.node.frames.local && continuity_.isCurrent(plan->made_at)) {
       plan_.offer(plan->result, plan->made_at, plan->start_time);
       const Intent& intent = plan->result.intent;
       // The planner takes this robot's number from here: until it has, it speaks in nobody's name.
@@ -143,7 +143,7 @@ void TeamNode::exchangeMaps() {
   if (const auto message = new_contours_.take(); message && team_->mapIsDue(now)) {
     const std::optional<std::vector<Contour>> contours = fromMessage(*message);
     const bool current = continuity_.isCurrent(message->header.stamp.toSec());
-    if (contours && message->header.frame_id == config_.node.frames.odom && current) {
+    if (contours && message->header.frame_id == config_.node.frames.local && current) {
       team_->tellMap(*contours, seenThroughOf(*message), now);
     } else {
       ++rejected_;
@@ -158,13 +158,13 @@ void TeamNode::exchangeMaps() {
   if (!changes.removed.empty() || !changes.drawn.empty() || !changes.refuted.empty()) publishMaps(now);
   if (markers_.getNumSubscribers() == 0) return;
   markers_.publish(boost::make_shared<visualization_msgs::MarkerArray>(
-      teamMarkers(drawnPeers(*team_, now), layers_, now, config_.node.frames.odom, kMostMarkerPoints)));
+      teamMarkers(drawnPeers(*team_, now), layers_, now, config_.node.frames.local, kMostMarkerPoints)));
 }
 
 void TeamNode::publishMaps(double now) {
   auto message = boost::make_shared<parley_msgs::PeerMaps>();
   message->header.stamp = toRosTime(now);
-  message->header.frame_id = config_.node.frames.odom;
+  message->header.frame_id = config_.node.frames.local;
   for (const auto& [origin, layer] : layers_) message->layers.push_back(layer);
   for (const auto& [noticed, outline] : refuted_) message->refuted.push_back(outline);
   peer_maps_.publish(message);
@@ -174,17 +174,17 @@ void TeamNode::publishTeammates(double now) {
   const std::vector<KnownTeammate> bodies = team_->bodies(now);
   if (bodies.empty() && !teammates_told_) return;
   teammates_told_ = !bodies.empty();
-  teammates_.publish(boost::make_shared<parley_msgs::Teammates>(toMessage(bodies, now, config_.node.frames.odom)));
+  teammates_.publish(boost::make_shared<parley_msgs::Teammates>(toMessage(bodies, now, config_.node.frames.local)));
 }
 
 void TeamNode::publishMotions(double now) {
   motions_told_ = now;
   motions_.publish(boost::make_shared<parley_msgs::PeerMotions>(
-      toMessage(motionsOf(*team_, now), team_->teammates(), config_.node.frames.odom)));
+      toMessage(motionsOf(*team_, now), team_->teammates(), config_.node.frames.local)));
 }
 
 void TeamNode::publishPeers(double now) {
-  const auto message = boost::make_shared<parley_msgs::PeerArray>(peersOf(*team_, now, config_.node.frames.odom));
+  const auto message = boost::make_shared<parley_msgs::PeerArray>(peersOf(*team_, now, config_.node.frames.local));
   peers_.publish(message);
   std::vector<geometry_msgs::TransformStamped> transforms;
   for (const parley_msgs::Peer& peer : message->peers) {

@@ -89,7 +89,7 @@ void TopologyNode::takeGoal() {
   const auto message = new_goal_.take();
   if (!message) return;
   const Eigen::Vector2d position(message->position.x, message->position.y);
-  const bool usable = message->active && position.allFinite() && message->header.frame_id == config_.node.frames.odom;
+  const bool usable = message->active && position.allFinite() && message->header.frame_id == config_.node.frames.local;
   goal_ = usable ? std::optional<Eigen::Vector2d>(position) : std::nullopt;
   route_ = {};
 }
@@ -98,7 +98,7 @@ void TopologyNode::takeGoal() {
 void TopologyNode::takePeerMaps() {
   const auto message = new_peer_maps_.take();
   if (!message) return;
-  if (message->header.frame_id != config_.node.frames.odom || !continuity_.isCurrent(message->header.stamp.toSec())) {
+  if (message->header.frame_id != config_.node.frames.local || !continuity_.isCurrent(message->header.stamp.toSec())) {
     ++rejected_;
     return;
   }
@@ -128,18 +128,18 @@ void TopologyNode::takePeerMaps() {
 
 void TopologyNode::publishLocalMap(const Pose2& T_odom_base) {
   const LocalMap map = topology_->localMap(T_odom_base.position(), config_.node.wiring.local_map_size, *newest_scan_);
-  local_map_.publish(boost::make_shared<nav_msgs::OccupancyGrid>(toMessage(map, config_.node.frames.odom)));
+  local_map_.publish(boost::make_shared<nav_msgs::OccupancyGrid>(toMessage(map, config_.node.frames.local)));
 }
 
 void TopologyNode::publishRoute(const Pose2& T_odom_base) {
   if (!goal_) return;
   route_ = topology_->route(T_odom_base, *goal_);
   const RouteToGoal route{route_, *goal_};
-  route_publisher_.publish(boost::make_shared<parley_msgs::Route>(toMessage(route, *newest_scan_, config_.node.frames.odom)));
+  route_publisher_.publish(boost::make_shared<parley_msgs::Route>(toMessage(route, *newest_scan_, config_.node.frames.local)));
 }
 
 void TopologyNode::publishPictures() {
-  const std::string& odom = config_.node.frames.odom;
+  const std::string& odom = config_.node.frames.local;
   if (contours_.getNumSubscribers() > 0) {
     contours_.publish(boost::make_shared<parley_msgs::Contours>(
         toMessage(topology_->contours(), topology_->seenThrough(), *newest_scan_, odom)));

@@ -8,6 +8,8 @@
 #include <parley_msgs/RobotState.h>
 #include <parley_msgs/Trajectory.h>
 
+#include <tf2_ros/static_transform_broadcaster.h>
+
 #include "node_fixture.h"
 #include "parley_nodelets/control_node.h"
 #include "parley_nodelets/lidar_node.h"
@@ -79,6 +81,32 @@ TEST_F(DrivingTest, PlannerPlansToAGoal) {
   ASSERT_GT(goal_.count(), 0);
   EXPECT_TRUE(goal_.last()->active);
   EXPECT_EQ(goal_.last()->position.x, 3.0);
+}
+
+TEST_F(DrivingTest, AGoalStaysWhereItIsInOdometrysFrame) {
+  pnh("planner").setParam("frames/odom", "drifting");  // what the fixture's sensors are in is the local frame
+  const PlannerNode node(nh_, pnh("planner"), "planner");
+  tf2_ros::StaticTransformBroadcaster transforms;
+  const auto place = [&](double x, double y, double yaw) {
+    geometry_msgs::TransformStamped transform;
+    transform.header = headerOf(time_, "drifting");
+    transform.child_frame_id = "odom";
+    transform.transform.translation.x = x;
+    transform.transform.translation.y = y;
+    transform.transform.rotation = toQuaternion(yaw);
+    transforms.sendTransform(transform);
+  };
+  const auto goalIs = [this](double x, double y) {
+    return goal_.count() > 0 && std::hypot(goal_.last()->position.x - x, goal_.last()->position.y - y) < 1e-6;
+  };
+  goals_.publish(pose(3.0, 1.0, "drifting"));
+  passFor(0.5);
+  EXPECT_EQ(goal_.count(), 0) << "held back until the local frame has a place";
+  place(0.0, 0.0, 0.0);
+  ASSERT_TRUE(passUntil([&] { return goalIs(3.0, 1.0); }));
+  place(1.0, 0.0, 0.5 * kPi);
+  EXPECT_TRUE(passUntil([&] { return goalIs(1.0, -2.0); }));
+  EXPECT_EQ(goal_.last()->header.frame_id, "odom");
 }
 
 TEST_F(DrivingTest, GoalsThatAreNowhereAreRefused) {

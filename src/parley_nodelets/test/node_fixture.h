@@ -69,6 +69,7 @@ class NodeFixture : public testing::Test {
 
   static void setParameters(const ros::NodeHandle& own) {
     own.setParam("frames/odom", "odom");
+    own.setParam("frames/local", "odom");
     own.setParam("frames/base", "base_link");
     own.setParam("robot/footprint/length", 0.8);
     own.setParam("robot/footprint/width", 0.4);

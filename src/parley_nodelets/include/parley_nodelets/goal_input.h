@@ -9,28 +9,31 @@
 #include <string>
 
 #include "parley_geometry/pose2.h"
+#include "parley_nodelets/node_config.h"
 
 namespace parley {
 
 /// What somebody wants of the robot.
 struct GoalOrder {
-  std::optional<Eigen::Vector2d> goal_odom;  // [m] nothing: stand
+  std::optional<Eigen::Vector2d> goal_local;  // [m] nothing: stand
 };
 
 /// Takes goals from the topic `move_base_simple/goal` and the action `move_base`, brings them into the odom frame by
-/// tf, and tells the action's client how they ended. The newest goal replaces the one before, whichever way either
-/// came.
+/// tf, where they stay, and tells the action's client how they ended. The newest goal replaces the one before, whichever way
+/// either came.
 class GoalInput {
  public:
-  GoalInput(const ros::NodeHandle& nh, const std::string& odom_frame);
+  GoalInput(const ros::NodeHandle& nh, const Frames& frames);
   ~GoalInput();
 
-  /// The newest order since the last call.
+  /// The newest order since the last call; a goal is held back until somebody has told where the local frame is.
   std::optional<GoalOrder> take();
+  /// Where the last goal lies in the local frame, if that has moved in the odom frame since it was last told.
+  std::optional<Eigen::Vector2d> moved();
 
   /// Whether the goal came by the action and is not finished yet.
   bool actionRuns() const;
-  void feedback(const Pose2& T_odom_base, double stamp);
+  void feedback(const Pose2& T_local_base, double stamp);
   void succeed(const std::string& text);
   void abort(const std::string& text);
 

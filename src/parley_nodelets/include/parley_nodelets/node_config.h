@@ -14,11 +14,13 @@ namespace parley {
 /// Names of the robot's frames, in messages and tf. No default: under one master they carry the robot's prefix.
 struct Frames {
   std::string odom;
+  std::string local;
   std::string base;
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.text("odom", odom, "odometry's frame, parent of the base frame");
+    v.text("odom", odom, "odometry's frame, parent of the base frame; goals are given in it");
+    v.text("local", local, "frame of all else, which stays smooth where odometry is corrected");
     v.text("base", base, "the robot's own frame");
   }
 };

@@ -59,6 +59,7 @@ class PlannerNode {
  private:
   void step();
   void takeOrder(double now);
+  void carryGoal(double now);
   void takeInputs(const OdometryBuffer& odometry);
   void takeScan(const OdometryBuffer& odometry);
   void takeRoute();
