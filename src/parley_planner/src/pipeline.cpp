@@ -63,9 +63,10 @@ void Planner::Pipeline::reset() {
   room_.reset();
   back_ = 0.0;
   failed_escapes_.clear();
-  passing_off_until_ = stranger_until_ = blocked_since_ = blocked_last_ = -1e9;
+  passing_off_until_ = stranger_until_ = stranger_seen_ = blocked_since_ = blocked_last_ = rested_since_ = -1e9;
   stranger_.reset();
-  reached_ = false;
+  stand_offs_in_row_ = 0;
+  reached_ = meets_ = false;
   path_.clear();
   route_ = {};
   desired_.clear();

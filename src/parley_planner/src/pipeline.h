@@ -101,6 +101,7 @@ class Planner::Pipeline {
   std::vector<std::pair<double, Eigen::Vector2d>> failed_escapes_;  // [s] until when not to be tried, [m]
   std::optional<PeerTube> stranger_;                                // that it makes room for, unheard
   double stranger_until_ = -1e9;                                    // [s]
+  double stranger_seen_ = -1e9;                                     // [s]
   double blocked_since_ = -1e9;                                     // [s] by something that moves and is not heard
   double blocked_last_ = -1e9;                                      // [s]
   std::uint32_t stand_offs_ = 0;
@@ -111,7 +112,7 @@ class Planner::Pipeline {
   int escapes_ = 0;
   bool meets_ = false;                  // its way met somebody's at the last plan
   bool reached_ = false;                // it has stood at this goal
-  double rested_since_ = 0.0;           // [s]
+  double rested_since_ = -1e9;          // [s]
   PlanCode code_ = PlanCode::kDriving;  // of what was committed last
   Eigen::Vector2d goal_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d local_goal_ = Eigen::Vector2d::Zero();

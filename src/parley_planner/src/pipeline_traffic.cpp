@@ -25,6 +25,9 @@ constexpr double kOut = 0.7;            // [m] from the place where it wanted to
 constexpr double kBlockedBreak = 1.0;   // [s]
 constexpr double kLeastPatience = 2.0;  // [s] a robot waits for a stranger to go away,
 constexpr double kMorePatience = 5.0;   // [s] or up to so much longer
+constexpr double kStrangerNear = 8.0;   // [m]
+constexpr double kStrangerGone = 5.0;   // [s] not seen for so long, it does not come
+constexpr double kStandOffReach = 2.0;  // [m] who is further off does not block
 constexpr double kSameStandOff = 20.0;  // [s] after one, the next is another try at the same
 constexpr int kMostDoublings = 3;       // [-] of the time for which room is made
 constexpr double kStrangerReach = 5.0;  // [m] behind this robot
@@ -305,6 +308,12 @@ std::optional<Proposal> Planner::Pipeline::escapeAlong(const Path& path, const P
 }
 
 std::optional<PlanResult> Planner::Pipeline::makeRoomForStranger(const PlanRequest& request, const TrajectoryPoint& start) {
+  const Eigen::Vector2d here = start.pose.position();
+  const bool is_there = std::any_of(traffic_.tracks().begin(), traffic_.tracks().end(), [&](const TrackedObject& track) {
+    return track.has_moved && (track.position - here).norm() < kStrangerNear;
+  });
+  if (is_there) stranger_seen_ = request.now;
+  if (request.now - stranger_seen_ > kStrangerGone) stranger_.reset();
   if (!stranger_ || request.now >= stranger_until_) return std::nullopt;
   const TrafficDecision decision{ownRight(request), {*stranger_}, {}, true};
   tell(decision.right, {start.pose.position()});
@@ -326,6 +335,7 @@ void Planner::Pipeline::standOff(const PlanRequest& request, const TrajectoryPoi
                std::make_pair(!b.has_moved, (b.position - here).norm());
       });
   if (nearest == traffic_.tracks().end() || !nearest->has_moved) return;
+  if ((nearest->position - here).norm() > kStandOffReach + nearest->radius) return;
   ++stand_offs_;
   blocked_since_ = request.now;
   stand_offs_in_row_ = request.now - stranger_until_ < kSameStandOff ? stand_offs_in_row_ + 1 : 0;
