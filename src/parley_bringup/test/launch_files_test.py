@@ -71,6 +71,7 @@ class LaunchFiles(unittest.TestCase):
             arguments = roslaunch('--args', 'robot', *words)
             self.assertIn(' odometry local lidar', arguments)
             self.assertIn('lidar_odometry:=/Odometry', arguments)
+            self.assertIn(' odom:=odom', arguments)
         self.assertNotIn('odometry ', roslaunch('--args', 'robot', os.path.join(LAUNCH, 'robot.launch'), 'model:=courier'))
 
     def test_a_robot_without_model_is_refused(self):

@@ -123,7 +123,10 @@ std::optional<GoalOrder> GoalInput::take() {
   GoalOrder order;
   if (p.goal_odom) {
     order.goal_local = p.local();
-    if (!order.goal_local) return std::nullopt;
+    if (!order.goal_local) {
+      ROS_WARN_STREAM_THROTTLE(5.0, "the goal waits for the transform from " << p.frames.odom << " to " << p.frames.local);
+      return std::nullopt;
+    }
     p.told_local = *order.goal_local;
   }
   p.is_new = false;

@@ -25,10 +25,10 @@ LocalNode::LocalNode(ros::NodeHandle nh, const ros::NodeHandle& pnh, const std::
       odometry_({config_.wiring.correction_distance, config_.wiring.correction_angle, config_.wiring.jump_distance,
                  config_.wiring.jump_angle},
                 config_.limits),
-      publisher_(nh.advertise<nav_msgs::Odometry>("odom", kQueue)) {
-  place();
+      publisher_(nh.advertise<nav_msgs::Odometry>("local_odom", kQueue)) {
+  if (config_.frames.local != config_.frames.odom) place();
   const auto take = [this](const nav_msgs::OdometryConstPtr& m) { worker_.post([this, m] { process(*m); }); };
-  subscriber_ = nh.subscribe<nav_msgs::Odometry>("raw_odom", kQueue, take, nullptr, ros::TransportHints().tcpNoDelay());
+  subscriber_ = nh.subscribe<nav_msgs::Odometry>("odom", kQueue, take, nullptr, ros::TransportHints().tcpNoDelay());
   inputs_.expect<nav_msgs::Odometry>(subscriber_);
   diagnostics_.setHardwareID(config_.frames.base);
   diagnostics_.add("stage", [this](Report& status) { report(status); });
@@ -49,8 +49,9 @@ void LocalNode::process(const nav_msgs::Odometry& message) {
     ++malformed_;
     return;
   }
-  const Odometry local = odometry_.add(*reading);
-  place();
+  const bool has_frame = config_.frames.local != config_.frames.odom;
+  const Odometry local = has_frame ? odometry_.add(*reading) : *reading;
+  if (has_frame) place();
   publisher_.publish(boost::make_shared<nav_msgs::Odometry>(toMessage(local, config_.frames.local, config_.frames.base)));
 }
 
@@ -59,7 +60,6 @@ void LocalNode::place() {
   const Pose2& T_odom_local = odometry_.odomFromLocal();
   if (placed_ && placed_->position() == T_odom_local.position() && placed_->yaw == T_odom_local.yaw) return;
   placed_ = T_odom_local;
-  if (config_.frames.local == config_.frames.odom) return;
   geometry_msgs::TransformStamped transform;
   transform.header.frame_id = config_.frames.odom;
   transform.header.stamp = ros::Time::now();

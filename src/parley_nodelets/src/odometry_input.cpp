@@ -14,7 +14,7 @@ constexpr int kQueue = 100;         // every reading counts: the lidar stage int
 OdometryInput::OdometryInput(ros::NodeHandle& nh, const NodeConfig& config)
     : frames_(config.frames),
       buffer_(2.0, 2000, config.wiring.jump_distance, config.wiring.jump_angle),
-      subscriber_(nh.subscribe("odom", kQueue, &OdometryInput::onOdometry, this, ros::TransportHints().tcpNoDelay())) {}
+      subscriber_(nh.subscribe("local_odom", kQueue, &OdometryInput::onOdometry, this, ros::TransportHints().tcpNoDelay())) {}
 
 OdometrySnapshot OdometryInput::read() const {
   const std::lock_guard<std::mutex> lock(mutex_);

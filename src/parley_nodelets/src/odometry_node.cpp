@@ -25,7 +25,7 @@ OdometryNode::OdometryNode(ros::NodeHandle nh, const ros::NodeHandle& pnh, const
       diagnostics_(nh, pnh, name),
       inputs_(nh, name),
       odometry_(poseOf(config_.node.mount), config_.stage, config_.node.limits),
-      publisher_(nh.advertise<nav_msgs::Odometry>("raw_odom", kQueue)) {
+      publisher_(nh.advertise<nav_msgs::Odometry>("odom", kQueue)) {
   const auto take = [this](const nav_msgs::OdometryConstPtr& m) { worker_.post([this, m] { process(*m); }); };
   subscriber_ = nh.subscribe<nav_msgs::Odometry>("lidar_odometry", kQueue, take, nullptr, ros::TransportHints().tcpNoDelay());
   inputs_.expect<nav_msgs::Odometry>(subscriber_);

@@ -203,10 +203,10 @@ PlanResult PlannerNode::plan(double now, const Odometry& odometry, bool at_goal)
 }
 
 void PlannerNode::publish(const TimedPlan& plan) {
-  const std::string& odom = config_.node.frames.local;
-  trajectory_.publish(boost::make_shared<parley_msgs::Trajectory>(toMessage(plan, odom)));
+  const std::string& local = config_.node.frames.local;
+  trajectory_.publish(boost::make_shared<parley_msgs::Trajectory>(toMessage(plan, local)));
   if (path_.getNumSubscribers() > 0 && !plan.result.keep_committed) {
-    path_.publish(boost::make_shared<nav_msgs::Path>(toPath(plan.result.trajectory, plan.made_at, odom)));
+    path_.publish(boost::make_shared<nav_msgs::Path>(toPath(plan.result.trajectory, plan.made_at, local)));
   }
 }
 
@@ -223,7 +223,9 @@ void PlannerNode::publishGoal(double now) {
 }
 
 void PlannerNode::answerAction(double now, const Odometry& odometry, const PlanResult& result) {
-  if (!isStuck(result.status.code)) last_progress_ = now;
+  // Who makes room for a stranger because there is no route is stuck too.
+  const bool has_way = route_.exists() || !team_.peers.empty() || result.status.is(PlanCode::kArrived);
+  if (!isStuck(result.status.code) && has_way) last_progress_ = now;
   if (!orders_->actionRuns()) return;
   orders_->feedback(odometry.pose, odometry.stamp);
   if (result.status.is(PlanCode::kArrived)) {

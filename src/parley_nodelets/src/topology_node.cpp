@@ -139,17 +139,17 @@ void TopologyNode::publishRoute(const Pose2& T_odom_base) {
 }
 
 void TopologyNode::publishPictures() {
-  const std::string& odom = config_.node.frames.local;
+  const std::string& local = config_.node.frames.local;
   if (contours_.getNumSubscribers() > 0) {
     contours_.publish(boost::make_shared<parley_msgs::Contours>(
-        toMessage(topology_->contours(), topology_->seenThrough(), *newest_scan_, odom)));
+        toMessage(topology_->contours(), topology_->seenThrough(), *newest_scan_, local)));
   }
   if (graph_.getNumSubscribers() > 0) {
-    graph_.publish(boost::make_shared<parley_msgs::Graph>(toMessage(topology_->graph(), *newest_scan_, odom)));
+    graph_.publish(boost::make_shared<parley_msgs::Graph>(toMessage(topology_->graph(), *newest_scan_, local)));
   }
   if (markers_.getNumSubscribers() > 0) {
     markers_.publish(boost::make_shared<visualization_msgs::MarkerArray>(
-        topologyMarkers(topology_->fusedContours(), topology_->graph(), route_, *newest_scan_, odom, kMostMarkerPoints)));
+        topologyMarkers(topology_->fusedContours(), topology_->graph(), route_, *newest_scan_, local, kMostMarkerPoints)));
   }
 }
 

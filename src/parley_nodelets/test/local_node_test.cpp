@@ -14,7 +14,7 @@ using test::refusal;
 /// A robot that drives straight on at 1 m/s, and odometry that is corrected in between.
 class LocalNodeTest : public test::NodeFixture {
  protected:
-  LocalNodeTest() : raw_(nh_.advertise<nav_msgs::Odometry>("raw_odom", 10)) {
+  LocalNodeTest() : raw_(nh_.advertise<nav_msgs::Odometry>("odom", 10)) {
     setParameters(pnh("local"));
     pnh("local").setParam("frames/local", "local");
     odometry_.shutdown();
@@ -46,7 +46,7 @@ class LocalNodeTest : public test::NodeFixture {
 
   Pose2 correction_;
   ros::Publisher raw_;
-  Listener<nav_msgs::Odometry> smooth_{nh_, "odom"};
+  Listener<nav_msgs::Odometry> smooth_{nh_, "local_odom"};
   tf2_ros::Buffer buffer_;
   tf2_ros::TransformListener listener_{buffer_};
 };
@@ -68,10 +68,12 @@ TEST_F(LocalNodeTest, CorrectionsMoveTheFrameNotTheRobot) {
 TEST_F(LocalNodeTest, DropsWhatIsNotItsOdometry) {
   const LocalNode node(nh_, pnh("local"), "local");
   ASSERT_TRUE(driveUntil([this] { return smooth_.count() > 2; }));
+  setTime(time_ + 0.02);
   nav_msgs::Odometry bad = reading();
   bad.header.frame_id = "map";
-  bad.pose.pose.position.x = -50.0;
+  bad.pose.pose.position.x += 0.5;  // would be a correction
   raw_.publish(bad);
+  setTime(time_ + 0.02);
   bad = reading();
   bad.pose.pose.position.x = std::nan("");
   raw_.publish(bad);
@@ -81,12 +83,24 @@ TEST_F(LocalNodeTest, DropsWhatIsNotItsOdometry) {
   EXPECT_TRUE(isPlacedAt({}));
 }
 
+TEST_F(LocalNodeTest, PassesOnWhatIsToStayAsItIs) {
+  pnh("local").setParam("frames/local", "odom");
+  const LocalNode node(nh_, pnh("local"), "local");
+  ASSERT_TRUE(driveUntil([this] { return smooth_.count() > 10; }));
+  correction_ = {0.3, -0.2, 0.05};
+  smooth_.clear();
+  ASSERT_TRUE(driveUntil([this] { return smooth_.count() > 5; }));
+  EXPECT_EQ(smooth_.last()->header.frame_id, "odom");
+  EXPECT_LT(smooth_.last()->pose.pose.position.y, -0.15);
+}
+
 TEST_F(LocalNodeTest, RefusesUnusableParameters) {
   pnh("local").setParam("wiring/correction_distance", -1.0);
   pnh("local").deleteParam("frames/local");
   pnh("local").setParam("unheard_of", 1.0);
   const std::string text = refusal<LocalNode>(nh_, pnh("local"));
-  for (const char* name : {"correction_distance", "local", "unheard_of"}) EXPECT_NE(text.find(name), std::string::npos) << text;
+  for (const char* name : {"correction_distance", "local: is missing", "unheard_of"})
+    EXPECT_NE(text.find(name), std::string::npos) << text;
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ class NodeFixture : public testing::Test {
  protected:
   NodeFixture() : spinner_(2) {
     for (const char* stage : {"lidar", "topology", "planner", "control"}) setParameters(pnh(stage));
-    odometry_ = nh_.advertise<nav_msgs::Odometry>("odom", 100);
+    odometry_ = nh_.advertise<nav_msgs::Odometry>("local_odom", 100);
     scan_ = nh_.advertise<sensor_msgs::LaserScan>("scan", 10);
     setTime(10.0);
     spinner_.start();

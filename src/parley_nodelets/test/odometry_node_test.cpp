@@ -43,7 +43,7 @@ class OdometryNodeTest : public test::NodeFixture {
   }
 
   ros::Publisher lidar_odometry_;
-  Listener<nav_msgs::Odometry> found_{nh_, "raw_odom"};
+  Listener<nav_msgs::Odometry> found_{nh_, "odom"};
 };
 
 TEST_F(OdometryNodeTest, TellsTheBasesPoseAndTwist) {

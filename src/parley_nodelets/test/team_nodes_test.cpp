@@ -35,8 +35,8 @@ class TeamNodeTest : public test::NodeFixture {
     setTeam(pnh("team"), "ann");
     setTeam(ros::NodeHandle(bob_nh_, "team"), "bob");
     // bob hears and sees what ann does
-    odometry_relay_ =
-        nh_.subscribe<nav_msgs::Odometry>("odom", 100, [this](const nav_msgs::OdometryConstPtr& m) { bob_odometry_.publish(m); });
+    odometry_relay_ = nh_.subscribe<nav_msgs::Odometry>(
+        "local_odom", 100, [this](const nav_msgs::OdometryConstPtr& m) { bob_odometry_.publish(m); });
     obstacles_relay_ = nh_.subscribe<parley_msgs::ObstacleScan>(
         "obstacles", 10, [this](const parley_msgs::ObstacleScanConstPtr& m) { bob_obstacles_.publish(m); });
   }
@@ -89,7 +89,7 @@ class TeamNodeTest : public test::NodeFixture {
 
   std::string folder_;
   ros::NodeHandle bob_nh_{"bob"};
-  ros::Publisher bob_odometry_{bob_nh_.advertise<nav_msgs::Odometry>("odom", 100)};
+  ros::Publisher bob_odometry_{bob_nh_.advertise<nav_msgs::Odometry>("local_odom", 100)};
   ros::Publisher bob_obstacles_{bob_nh_.advertise<parley_msgs::ObstacleScan>("obstacles", 10)};
   ros::Subscriber odometry_relay_, obstacles_relay_;
   std::vector<ros::Subscriber> air_;

@@ -28,7 +28,7 @@ class GoalInput {
 
   /// The newest order since the last call; a goal is held back until somebody has told where the local frame is.
   std::optional<GoalOrder> take();
-  /// Where the last goal lies in the local frame, if that has moved in the odom frame since it was last told.
+  /// Where the last goal lies in the local frame, if that frame has moved in the odom frame since it was last told.
   std::optional<Eigen::Vector2d> moved();
 
   /// Whether the goal came by the action and is not finished yet.

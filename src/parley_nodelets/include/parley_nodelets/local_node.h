@@ -15,8 +15,9 @@
 
 namespace parley {
 
-/// Odometry that is corrected now and then, as when it closes a loop, in a frame that takes no part in corrections: `raw_odom`
-/// becomes `odom`, and the transform from the odom frame to the local frame says where that lies at present.
+/// Odometry that is corrected now and then, as when it closes a loop, in a frame that takes no part in corrections: `odom`
+/// becomes `local_odom`, and the transform from the odom frame to the local frame says where that lies at present. Where both
+/// frames have one name, what comes in is passed on.
 class LocalNode {
  public:
   /// Throws std::invalid_argument with all problems of the parameters.

@@ -28,7 +28,7 @@ struct OdometrySnapshot {
   OdometryCounters counters;
 };
 
-/// The last seconds of the topic `odom`, filled by its callback and read by the worker.
+/// The last seconds of the topic `local_odom`, filled by its callback and read by the worker.
 class OdometryInput {
  public:
   OdometryInput(ros::NodeHandle& nh, const NodeConfig& config);

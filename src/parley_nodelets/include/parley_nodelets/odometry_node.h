@@ -14,7 +14,7 @@
 
 namespace parley {
 
-/// For lidar odometry that has poses in frames of its own and no twist, as Fast-LIO: `lidar_odometry` becomes `raw_odom` and the
+/// For lidar odometry that has poses in frames of its own and no twist, as Fast-LIO: `lidar_odometry` becomes `odom` and the
 /// transforms from the odom frame to the base frame and to the frame that the poses came in.
 class OdometryNode {
  public:
