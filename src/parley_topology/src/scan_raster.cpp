@@ -34,7 +34,7 @@ std::vector<Ray> castRays(const ObstacleScan& scan, const Pose2& T_odom_base, do
     ray.end = eye + std::min(range, reach) * along;
     ray.clear = eye + std::max(0.0, std::min(range, reach) - clear_margin) * along;
     const bool transient = i < scan.transient.size() && scan.transient[i];
-    ray.passing = ray.hit && i < scan.moving.size() && scan.moving[i];
+    ray.passing = ray.hit && transient;
     ray.hit = ray.hit && !transient;
   }
   return rays;
@@ -69,8 +69,7 @@ void drawHits(cv::Mat1b& marks, const std::vector<Ray>& rays, const Canvas& canv
     cv::line(marks, canvas.at(ray.end), canvas.at(after.end), cv::Scalar(kKeep), 1, cv::LINE_8, kShift);
   }
   for (const Ray& ray : rays) {
-    std::uint8_t& mark = marks(canvas.pixel(ray.end));
-    if (ray.passing && mark < kPassing) mark = kPassing;
+    if (ray.passing) marks(canvas.pixel(ray.end)) = kPassing;
   }
   for (const Ray& ray : rays) {
     if (ray.hit) marks(canvas.pixel(ray.end)) = kHit;
