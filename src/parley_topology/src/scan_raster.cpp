@@ -69,7 +69,8 @@ void drawHits(cv::Mat1b& marks, const std::vector<Ray>& rays, const Canvas& canv
     cv::line(marks, canvas.at(ray.end), canvas.at(after.end), cv::Scalar(kKeep), 1, cv::LINE_8, kShift);
   }
   for (const Ray& ray : rays) {
-    if (ray.passing) marks(canvas.pixel(ray.end)) = kPassing;
+    std::uint8_t& mark = marks(canvas.pixel(ray.end));
+    if (ray.passing && mark < kPassing) mark = kPassing;
   }
   for (const Ray& ray : rays) {
     if (ray.hit) marks(canvas.pixel(ray.end)) = kHit;

@@ -24,8 +24,8 @@ struct ScanImage {
 bool isUsable(const ObstacleScan& scan, const Pose2& T_odom_base);
 
 /// Draws a scan. Clear: the polygon of the rays' ends, each `clear_margin` [m] short of its hit. Kept as it is: the line
-/// between neighbouring hits on one surface, lest rays that graze a wall erase it. Passing: where rays end on what moves. Hit:
-/// where rays end on the rest.
+/// between neighbouring hits on one surface, lest rays that graze a wall erase it. Passing: where rays end on what moves or may.
+/// Hit: where rays end on the rest.
 ScanImage drawScan(const ObstacleScan& scan, const Pose2& T_odom_base, const Footprint& footprint, double clear_margin,
                    double resolution);
 

@@ -28,7 +28,7 @@ enum CellFlag : std::uint8_t {
   kWide = 8,        // further than the grown radius from what is occupied: contours bound this
   kPassable = 16,   // within a cell of what is wide: edges may lead here
   kTentative = 32,  // within reach of an outline that does not block
-  kOnceFree = 64    // own sensing was sure that nothing is here, or saw something move here, now or earlier
+  kOnceFree = 64    // own sensing was sure that nothing is here, or saw what may move here, now or earlier
 };
 
 /// What stands where own sensing was once sure of nothing that stays: it came, and may go.
