@@ -109,6 +109,7 @@ class LidarStage::Pipeline {
     result.masked_points = maskTeammates(mask, T_odom_base, teammates);
     maskTracks(mask, T_odom_base, stamp);
     result.scan.transient = mask.bins();
+    result.scan.moving = movingBins(result.scan, T_odom_base, teammates);
     return result;
   }
 
@@ -136,6 +137,19 @@ class LidarStage::Pipeline {
       if (!track.object().moving && !tracker_.isUndecided(track, stamp)) continue;
       mask.addDisc(T_base_odom * track.predicted(), track.object().radius + options_.transient_margin);
     }
+  }
+
+  std::vector<bool> movingBins(const ObstacleScan& scan, const Pose2& T_odom_base,
+                               const std::vector<KnownTeammate>& teammates) const {
+    const Pose2 T_base_odom = T_odom_base.inverse();
+    TransientMask mask(scan);
+    for (const Track& track : tracker_.tracks()) {
+      if (track.object().moving) mask.addDisc(T_base_odom * track.predicted(), track.object().radius);
+    }
+    for (const KnownTeammate& teammate : teammates) {
+      if (teammate.pose_odom.isFinite()) mask.addFootprint(T_base_odom * teammate.pose_odom, teammate.footprint, 0.0);
+    }
+    return mask.bins();
   }
 
   int maskTeammates(TransientMask& mask, const Pose2& T_odom_base, const std::vector<KnownTeammate>& teammates) const {

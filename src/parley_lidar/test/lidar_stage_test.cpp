@@ -192,6 +192,7 @@ TEST(LidarStage, ANewBlobWaitsForTheMap) {
   for (int i = 0; i < 10; ++i) {
     const LidarResult result = lidar.process(scanned(world, still(), {}, 0.1 * i, random), odometry, {});
     EXPECT_EQ(result.scan.transient[360], i < 4) << i;
+    EXPECT_FALSE(result.scan.moving[360]) << "what is only too new to tell";
     EXPECT_FALSE(result.scan.transient[0]);
     ASSERT_EQ(result.tracks.size(), 1U);
     EXPECT_EQ(result.tracks[0].observations, i + 1);

@@ -27,6 +27,7 @@ parley_msgs::ObstacleScan toMessage(const ObstacleScan& scan, const std::string&
   message.origin = toPoint(scan.origin);
   message.ranges = scan.ranges;
   message.transient.assign(scan.transient.begin(), scan.transient.end());
+  message.moving.assign(scan.moving.begin(), scan.moving.end());
   message.points.resize(scan.points.size());
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
     message.points[i].x = scan.points[i].x();
@@ -48,8 +49,10 @@ std::optional<ObstacleScan> fromMessage(const parley_msgs::ObstacleScan& message
   scan.origin = fromPoint(message.origin);
   scan.ranges = message.ranges;
   scan.transient.assign(message.transient.begin(), message.transient.end());
-  const bool usable = !scan.ranges.empty() && scan.transient.size() == scan.ranges.size() && scan.origin.allFinite() &&
-                      std::isfinite(scan.range_max) && scan.range_max > 0.0;
+  scan.moving.assign(message.moving.begin(), message.moving.end());
+  const bool usable = !scan.ranges.empty() && scan.transient.size() == scan.ranges.size() &&
+                      scan.moving.size() == scan.ranges.size() && scan.origin.allFinite() && std::isfinite(scan.range_max) &&
+                      scan.range_max > 0.0;
   if (!usable) return std::nullopt;
   for (const geometry_msgs::Point32& point : message.points) {
     if (!std::isfinite(point.x) || !std::isfinite(point.y)) return std::nullopt;

@@ -133,7 +133,8 @@ ObstacleScan someScan() {
   scan.range_max = 4.0;
   scan.origin = {0.2, -0.1};
   scan.ranges = {1.0F, kInfinity, kNan, 2.0F};
-  scan.transient = {false, false, false, true};
+  scan.transient = {false, false, true, true};
+  scan.moving = {false, false, false, true};
   scan.points = {{1.0F, 0.5F}};
   scan.blobs = {{{1.0, 2.0}, 0.4, 7}};
   return scan;
@@ -150,6 +151,7 @@ TEST(ObstacleScanMessage, ComesBack) {
   EXPECT_EQ(back->ranges[0], 1.0F);
   EXPECT_TRUE(std::isnan(back->ranges[2]));
   EXPECT_EQ(back->transient, scan.transient);
+  EXPECT_EQ(back->moving, scan.moving);
   EXPECT_EQ(back->points, scan.points);
   ASSERT_EQ(back->blobs.size(), 1U);
   EXPECT_EQ(back->blobs[0].beams, 7);

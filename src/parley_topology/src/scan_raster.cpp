@@ -34,7 +34,7 @@ std::vector<Ray> castRays(const ObstacleScan& scan, const Pose2& T_odom_base, do
     ray.end = eye + std::min(range, reach) * along;
     ray.clear = eye + std::max(0.0, std::min(range, reach) - clear_margin) * along;
     const bool transient = i < scan.transient.size() && scan.transient[i];
-    ray.passing = ray.hit && transient;
+    ray.passing = ray.hit && i < scan.moving.size() && scan.moving[i];
     ray.hit = ray.hit && !transient;
   }
   return rays;

@@ -117,9 +117,10 @@ TEST(Evidence, whatMovedUpToWhereItStandsHasCome) {
   for (std::size_t i = 340; i < 380; ++i) scan.ranges[i] = 2.03F;
   for (std::size_t i = 0; i < 20; ++i) scan.ranges[i] = 3.0F;
   for (int k = 0; k < 3; ++k) {
-    scan.transient.assign(720, false);
-    for (std::size_t i = 340; i < 380; ++i) scan.transient[i] = k == 0;  // afterwards it stands
-    for (std::size_t i = 0; i < 20; ++i) scan.transient[i] = k == 2;     // somebody moves right before a known wall
+    scan.moving.assign(720, false);
+    for (std::size_t i = 340; i < 380; ++i) scan.moving[i] = k == 0;  // afterwards it stands
+    for (std::size_t i = 0; i < 20; ++i) scan.moving[i] = k == 2;     // somebody moves right before a known wall
+    scan.transient = scan.moving;
     mapping.add(scan, {});
   }
   EXPECT_TRUE(mapping.isOccupied(2.02, 0.01));

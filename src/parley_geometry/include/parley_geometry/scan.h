@@ -52,8 +52,11 @@ struct ObstacleScan {
   std::vector<float> ranges;
   std::vector<Eigen::Vector2f> points;  // [m] obstacle points after the voxel grid, base frame
   std::vector<Blob> blobs;
-  /// Per bin, true where the return is on something that moves or a known teammate: it blocks now but is not of the map.
+  /// Per bin, true where the return is on something that moves or may move, or a known teammate: it blocks now but is not of
+  /// the map.
   std::vector<bool> transient;
+  /// Per bin, true where the return is on the very thing that is seen to move, or on a known teammate.
+  std::vector<bool> moving;
 
   std::size_t binCount() const { return ranges.size(); }
   double bearingOf(std::size_t bin) const {
