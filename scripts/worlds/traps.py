@@ -75,7 +75,7 @@ WORLDS = [World('room', ROOM), World('u_trap', U_TRAP), World('ping_pong', PING_
 DOORWAY = '[[12, 13.4], [12, 14.6]]'
 SCENARIOS = [
     Scenario('room', 'room', 'Two robots swap places in a room with a few boxes; quick.', 60, ROOM_ROBOTS),
-    Scenario('u_trap', 'u_trap', 'One robot; its straight way leads into a large U.', 120, 'robot_1  2.5 8.7  21.5 9.2'),
+    Scenario('u_trap', 'u_trap', 'One robot; its straight way leads into a large U, nearer to one arm: which way out is no toss-up.', 120, 'robot_1  2.5 6.6  21.5 7.1'),
     Scenario('ping_pong', 'ping_pong', 'One robot before two corridors of nearly equal length; the northern one is a dead end.', 180,
              'robot_1  2.5 9.9  29.5 10.1'),
     Scenario('ping_pong_pair', 'ping_pong', 'A teammate comes out of the dead end and tells robot_1, which must choose once and stay with it.', 180,

@@ -13,7 +13,7 @@ from lockstep import fleet_run
 from std_msgs.msg import String
 
 PATIENCE = 200.0   # [s] of wall time
-AGREEMENT = 0.10   # [-] with one of the runs in lockstep: when a scan comes decides on which side of a trap it is left
+AGREEMENT = 0.10   # [-] with one of the runs in lockstep
 SEEDS = range(1, 5)
 NODES = {'/simulator', '/robot_1/robot'}
 
