@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "localization_core.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -16,6 +17,7 @@ constexpr double kOverlap = 0.35;     // [m] and never at all so near
 constexpr double kOverlapStep = 0.2;  // [s]
 constexpr double kDoubtful = 3.0;     // [s] after another claimed the same place, a peer is not confirmed there
 constexpr double kSolvePeriod = 0.5;  // [s]
+constexpr double kElsewhere = 25.0;   // [-] squared deviations from which on two estimates are of different places
 
 /// Larger of the deviations of the peer's place near this robot. [m]
 double deviationAt(const PoseEstimate& estimate, const Eigen::Vector2d& place) {
@@ -59,8 +61,8 @@ void RelativeLocalization::Core::forget(const std::string& peer_name) {
 }
 
 /// Another peer claims the place where this one was last seen, and is not much worse supported; or a confirmed one was where
-/// this one would have been.
-bool RelativeLocalization::Core::isBlocked(const PeerLocalizer& one) const {
+/// this one would have been; or others know it elsewhere.
+bool RelativeLocalization::Core::isBlocked(double now, const PeerLocalizer& one) const {
   const SightFit* fit = one.evidence();
   const auto wanted = fit == nullptr ? std::nullopt : one.claim(fit->last);
   if (!wanted) return false;
@@ -69,7 +71,18 @@ bool RelativeLocalization::Core::isBlocked(const PeerLocalizer& one) const {
     return other && (other->place - wanted->place).norm() < kSamePlace &&
            (other->confirmed || other->score > options.rival_share * wanted->score);
   });
-  return is_claimed || overlapsKnown(one, *fit);
+  return is_claimed || overlapsKnown(one, *fit) || contradictsGraph(now, one, *fit);
+}
+
+/// The way over third robots leads elsewhere. That many agreeing measurements weigh more than a look that could be at somebody
+/// else, unless the look is that much better than it had to be.
+bool RelativeLocalization::Core::contradictsGraph(double now, const PeerLocalizer& one, const SightFit& fit) const {
+  if (one.state() == PoseState::kConfirmed || !fit.solved || one.isBeyondDoubt(fit)) return false;
+  const auto known = byGraph(now, one.name());
+  if (!known) return false;
+  const Eigen::Vector3d step = stepBetween(known->pose, fit.pose.T_odom_peerodom, fit.center);
+  const Eigen::Matrix3d covariance = covarianceAbout(*known, fit.center) + fit.covariance;
+  return step.dot(covariance.ldlt().solve(step)) > kElsewhere;
 }
 
 bool RelativeLocalization::Core::overlapsKnown(const PeerLocalizer& one, const SightFit& fit) const {
@@ -129,10 +142,10 @@ std::optional<Pose2> RelativeLocalization::Core::knownFrame(const std::string& p
   return solved == solved_.end() ? std::nullopt : std::optional<Pose2>(solved->second.T_odom_peerodom.pose);
 }
 
-/// The graph's answer where it is better than, or there is no, measurement of this robot's own.
-void RelativeLocalization::Core::mergeGraph(double now, const std::string& peer_name, PeerEstimate& estimate) const {
+/// What all edges say of a peer by now; nullopt if that is too old or too little.
+std::optional<PoseEstimate> RelativeLocalization::Core::byGraph(double now, const std::string& peer_name) const {
   const auto solved = solved_.find(peer_name);
-  if (solved == solved_.end() || own.view().side.motion.empty()) return;
+  if (solved == solved_.end() || own.view().side.motion.empty()) return std::nullopt;
   const GraphEstimate& known = solved->second;
   const auto localizer = peers.find(peer_name);
   const double peer_way = localizer == peers.end() ? 0.0 : std::max(localizer->second.travel() - known.travel, 0.0);
@@ -140,16 +153,23 @@ void RelativeLocalization::Core::mergeGraph(double now, const std::string& peer_
   PoseEstimate grown = known.T_odom_peerodom;
   const double way = peer_way + own.view().travel - solved_travel_;
   grown.covariance += covarianceOfPose(grown.pose, here, driftOver(way, options));
-  const double deviation = deviationAt(grown, here);
-  if (deviation > options.expire_deviation || now - known.stamp > options.expire_age) return;
+  if (deviationAt(grown, here) > options.expire_deviation || now - known.stamp > options.expire_age) return std::nullopt;
+  return grown;
+}
+
+/// The graph's answer where it is better than, or there is no, measurement of this robot's own.
+void RelativeLocalization::Core::mergeGraph(double now, const std::string& peer_name, PeerEstimate& estimate) const {
+  const auto grown = byGraph(now, peer_name);
+  if (!grown) return;
+  const Eigen::Vector2d here = own.view().side.motion.latest().pose.position();
   const bool is_direct = estimate.state == PoseState::kConfirmed;
-  if (is_direct && deviation >= deviationAt(estimate.T_odom_peerodom, here)) return;
-  estimate.T_odom_peerodom = grown;
+  if (is_direct && deviationAt(*grown, here) >= deviationAt(estimate.T_odom_peerodom, here)) return;
+  estimate.T_odom_peerodom = *grown;
   if (is_direct) return;
   estimate.state = PoseState::kConfirmed;
   estimate.direct = false;
-  estimate.age = std::max(now - known.stamp, 0.0);
-  estimate.support = known.edges;
+  estimate.age = std::max(now - solved_.at(peer_name).stamp, 0.0);
+  estimate.support = solved_.at(peer_name).edges;
 }
 
 /// What is seen where a confirmed peer is, is that peer and no other. Robots that start alike in a building that is alike on
@@ -170,7 +190,7 @@ std::vector<PeerEstimate> RelativeLocalization::Core::step(double now) {
   std::map<std::string, PeerEstimate> estimates;
   for (auto& entry : peers) {
     const long demotions = counters.demotions;
-    if (isBlocked(entry.second)) blocked_until_[entry.first] = now + kDoubtful;
+    if (isBlocked(now, entry.second)) blocked_until_[entry.first] = now + kDoubtful;
     const auto blocked = blocked_until_.find(entry.first);
     entry.second.judge(now, own.view(), blocked != blocked_until_.end() && now < blocked->second, counters);
     if (counters.demotions > demotions) {

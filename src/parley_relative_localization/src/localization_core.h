@@ -33,13 +33,15 @@ class RelativeLocalization::Core {
   RelativeLocalizationCounters counters;
 
  private:
-  bool isBlocked(const PeerLocalizer& one) const;
+  bool isBlocked(double now, const PeerLocalizer& one) const;
+  bool contradictsGraph(double now, const PeerLocalizer& one, const SightFit& fit) const;
   bool overlapsKnown(const PeerLocalizer& one, const SightFit& fit) const;
   std::string whoWasAt(double stamp, const Eigen::Vector2d& place, double reach) const;
   void nameBlobs(const std::vector<PeerEstimate>& estimates);
   void searchForOne(double now);
   void updateGraph(double now);
   std::optional<Pose2> knownFrame(const std::string& peer_name) const;
+  std::optional<PoseEstimate> byGraph(double now, const std::string& peer_name) const;
   void mergeGraph(double now, const std::string& peer_name, PeerEstimate& estimate) const;
 
   std::map<std::string, GraphEstimate> solved_;

@@ -15,6 +15,7 @@ constexpr double kTentativeMemory = 30.0;   // [s] without new evidence, what is
 constexpr double kClaimStays = 1.0;         // [s] after the last sighting a place is still claimed
 constexpr double kBlindFactor = 2.0;        // [-] where surfaces say nothing, sightings must say so much more
 constexpr double kBlindResidual = 0.7;      // [-] and leave so small a share of the residuals
+constexpr double kBeyondDoubt = 2.0;        // [-] so many times what confirms is believed against what others say
 constexpr double kReason = 16.0;            // [-] squared deviations that a held pose is moved by at most
 constexpr int kMostChecks = 3;              // [-] hypotheses whose surfaces are compared at a time
 constexpr double kSearchedDeviation = 0.1;  // [m] of a pose that surfaces alone gave
@@ -122,6 +123,11 @@ bool PeerLocalizer::isConfirmable(const SightFit& fit) const {
   if (!verdict_.agrees && fit.residual > kBlindResidual * options_.confirm_residual) return false;
   const double factor = verdict_.agrees ? (verdict_.observed ? 0.5 : 1.0) : kBlindFactor;
   return fit.travel >= options_.confirm_travel && fit.distinction >= options_.confirm_distinction * factor;
+}
+
+bool PeerLocalizer::isBeyondDoubt(const SightFit& fit) const {
+  return isConfirmable(fit) && verdict_.agrees && verdict_.observed && fit.travel >= kBeyondDoubt * options_.confirm_travel &&
+         fit.distinction >= kBeyondDoubt * options_.confirm_distinction;
 }
 
 bool PeerLocalizer::isImprovement(const SightFit& fit, const OwnView& own) const {

@@ -58,6 +58,8 @@ class PeerLocalizer {
   std::optional<Claim> claim(double at) const;
   /// What speaks for its best hypothesis; null without mutual support.
   const SightFit* evidence() const;
+  /// So much speaks for a fit, that it is believed against what third robots say.
+  bool isBeyondDoubt(const SightFit& fit) const;
   /// The measured pose to hand on, once confirmed.
   std::optional<RelativeEdge> edge(const std::string& own_name, const OwnView& own) const;
 

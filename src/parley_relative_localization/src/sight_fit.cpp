@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace parley {
 namespace {
@@ -46,6 +47,15 @@ Eigen::Vector2d centerOf(const MeetingSide& own, const MeetingSide& peer, const 
   return 0.5 * (here + pose.T_odom_peerodom * peer.motion.latest().pose.position());
 }
 
+/// From the first to the last sighting of a kind. [s] own clock
+struct Span {
+  double first = std::numeric_limits<double>::max(), last = std::numeric_limits<double>::lowest();
+  void add(double stamp) {
+    first = std::min(first, stamp);
+    last = std::max(last, stamp);
+  }
+};
+
 /// How far a path is from one at constant velocity. [m]
 double bendOf(const MotionHistory& motion, double from, double to) {
   const auto start = motion.at(from), middle = motion.at(0.5 * (from + to)), end = motion.at(to);
@@ -57,17 +67,19 @@ void summarise(const MeetingSide& own, const MeetingSide& peer, const SightTerms
   fit.contradictions = sights.contradictions;
   fit.contradictions_in_row = sights.contradictions_in_row;
   if (sights.terms.empty()) return;
-  fit.first = fit.last = sights.terms.front().stamp;
+  Span by_own, by_peer;
   double squares = 0.0;
   for (const SightTerm& term : sights.terms) {
     (term.own ? fit.own_sights : fit.peer_sights) += 1;
-    fit.first = std::min(fit.first, term.stamp);
-    fit.last = std::max(fit.last, term.stamp);
+    (term.own ? by_own : by_peer).add(term.stamp);
     squares += term.error.squaredNorm() / (2.0 * term.deviation * term.deviation);
   }
   fit.residual = std::sqrt(squares / static_cast<double>(sights.terms.size()));
+  fit.first = std::min(by_own.first, by_peer.first);
+  fit.last = std::max(by_own.last, by_peer.last);
   const double ahead = fit.pose.time_offset;
-  fit.travel = own.motion.travel(fit.first, fit.last) + peer.motion.travel(fit.first + ahead, fit.last + ahead);
+  if (fit.own_sights > 0) fit.travel += peer.motion.travel(by_own.first + ahead, by_own.last + ahead);
+  if (fit.peer_sights > 0) fit.travel += own.motion.travel(by_peer.first, by_peer.last);
   const auto own_first = own.motion.at(fit.first), own_last = own.motion.at(fit.last);
   const auto peer_first = peer.motion.at(fit.first + ahead), peer_last = peer.motion.at(fit.last + ahead);
   if (!own_first || !own_last || !peer_first || !peer_last) return;

@@ -20,7 +20,7 @@ struct SightFit {
   int contradictions_in_row = 0;   // [-] newest own scans that did
   double residual = 0.0;           // [-] root mean square of the errors over their standard deviations
   double first = 0.0, last = 0.0;  // [s] of the agreeing sightings
-  double travel = 0.0;             // [m] of both robots between them
+  double travel = 0.0;             // [m] of each while the other saw it: what stands could be anything that stands
   double distinction = 0.0;        // [m] how far the motion is from two robots in a queue
 
   int score() const { return own_sights + 2 * peer_sights - 4 * contradictions; }

@@ -256,6 +256,50 @@ TEST(Encounter, whoMeetsTwoJoinsThem) {
   EXPECT_EQ(a.localization.edges().front().to, "b");
 }
 
+TEST(Encounter, whoIsKnownElsewhereIsNotWhoIsSeen) {
+  for (const bool known : {false, true}) {
+    // Two meetings in step with each other, 30 m apart in a corridor; one robot of each is silent.
+    Stage stage(test::segmentWorld(test::corridor()));
+    stage.reserve(4);
+    stage.add("a", {0.0, 0.6, 0.0});
+    stage.add("b", {36.0, 1.4, kPi});
+    stage.add("silent", {6.0, 1.4, kPi});
+    stage.add("image", {30.0, 0.6, 0.0});
+    for (std::size_t i = 0; i < 4; ++i) stage.actor(i).twist = {1.0, 0.0};
+    stage.links = {{0, 1}, {1, 0}};
+    stage.step();
+    const Actor &a = stage.actor(0), &b = stage.actor(1);
+    const PoseEstimate told{b.T_world_base.inverse() * a.T_world_base, Eigen::Vector3d(1e-3, 1e-3, 1e-5).asDiagonal()};
+    if (known)
+      stage.actor(0).localization.addEdge(
+          {"b", "a", stage.now(), b.odometry(), a.odometry(), b.localization.travel(), a.localization.travel(), told});
+    bool is_taken_for_another = false;
+    for (int i = 0; i < 30; ++i) {
+      stage.step();
+      const bool is_confirmed = stage.estimate(0, "b").state == PoseState::kConfirmed;
+      is_taken_for_another = is_taken_for_another || (is_confirmed && stage.errorOf(0, 1).position().norm() > 1.0);
+    }
+    EXPECT_EQ(is_taken_for_another, !known);
+  }
+}
+
+TEST(Encounter, whatStandsCouldBeAnything) {
+  // It drives up to a silent robot that stands. Elsewhere a peer stands like that one, before which something stops as it does.
+  Stage stage(test::segmentWorld(test::corridor()));
+  stage.reserve(4);
+  stage.add("a", {0.0, 0.6, 0.0});
+  stage.add("b", {33.8, 1.4, kPi});
+  stage.add("silent", {3.8, 1.4, kPi});
+  stage.add("image", {60.0, 0.6, 0.0});
+  stage.links = {{0, 1}, {1, 0}};
+  for (int i = 0; i < 50; ++i) {
+    stage.actor(0).twist = {i < 20 ? 0.8 : 0.0, 0.0};
+    if (i == 20) stage.actor(3).T_world_base = {31.6, 0.6, 0.0};
+    stage.step();
+    EXPECT_NE(stage.estimate(0, "b").state, PoseState::kConfirmed) << i;
+  }
+}
+
 TEST(Encounter, geometryAloneIsTentativeAtMost) {
   // A pillar hides the robots from each other; they still tell what they see of the room.
   Stage stage(test::segmentWorld(test::distinctiveRoom() + test::box({4.3, 1.2}, {4.7, 4.6})));

@@ -97,7 +97,7 @@ struct RelativeLocalizationOptions {
     v.integer("confirm_own_sights", confirm_own_sights, "-", 1, 100, "scans in which this robot saw the peer");
     v.integer("confirm_peer_sights", confirm_peer_sights, "-", 1, 100, "scans in which the peer saw this robot");
     v.number("confirm_span", confirm_span, "s", 0.0, 30.0, "time from first to last of them");
-    v.number("confirm_travel", confirm_travel, "m", 0.0, 30.0, "way of both robots together in that time");
+    v.number("confirm_travel", confirm_travel, "m", 0.0, 30.0, "way of each robot while the other saw it, together");
     v.number("confirm_distinction", confirm_distinction, "m", 0.0, 10.0, "how far their motion is from that of a queue");
     v.number("confirm_residual", confirm_residual, "-", 0.5, 10.0, "largest root mean square of the residuals over noise");
     v.number("confirm_deviation", confirm_deviation, "m", 0.01, 1.0, "largest standard deviation of the position");
