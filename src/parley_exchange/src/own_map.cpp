@@ -17,6 +17,16 @@ bool isUsable(const OwnContour& contour) {
          std::all_of(contour.polygon.begin(), contour.polygon.end(), [](const Eigen::Vector2d& p) { return isPlace(p); });
 }
 
+/// Longer side of its upright box. [m]
+double extentOf(const Polygon& polygon) {
+  Eigen::Vector2d low = polygon.front(), high = polygon.front();
+  for (const Eigen::Vector2d& p : polygon) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  return (high - low).maxCoeff();
+}
+
 }  // namespace
 
 void OwnMap::drive(const Pose2& T_odom_base, double now) {
@@ -66,6 +76,7 @@ std::optional<std::uint32_t> OwnMap::nearestAnchor(const Eigen::Vector2d& p_odom
 
 int OwnMap::publish(const std::vector<OwnContour>& contours, const PeerOutlines& outlines, References& references, double now) {
   int refused = 0;
+  std::set<std::int64_t> present;
   for (const OwnContour& contour : contours) {
     const auto known = contours_.find(contour.key);
     const bool full = known == contours_.end() && contours_.size() >= static_cast<std::size_t>(options_.max_records);
@@ -73,22 +84,35 @@ int OwnMap::publish(const std::vector<OwnContour>& contours, const PeerOutlines&
       ++refused;
       continue;
     }
-    Published& published = contours_[contour.key];
+    if (extentOf(contour.polygon) < options_.contour_extent) continue;
+    present.insert(contour.key);
+    const auto [entry, is_new] = contours_.try_emplace(contour.key);
+    Published& published = entry->second;
+    if (is_new) published.appeared_at = now;
     published.missing_since = -1.0;
     const bool same = contour.polygon == published.given.polygon && contour.closed == published.given.closed &&
                       contour.hole == published.given.hole;
     published.settled = published.settled && same;
+    if (!same) published.changed_at = now;
     const bool accepted = update(published, contour, outlines, references, now);
     published.given = contour;
     if (!accepted) ++refused;
   }
-  withdrawMissing(contours, now);
+  withdrawMissing(present, now);
   return refused;
+}
+
+/// At once and then once an interval, but not while it changes, as all does that a robot drives past: for up to two intervals.
+bool OwnMap::isDue(const Published& published, double now) const {
+  const bool is_first = published.looked_at < published.appeared_at;
+  const double since = now - (is_first ? published.appeared_at : published.looked_at);
+  if (!is_first && since < options_.contour_interval) return false;
+  return now - published.changed_at >= options_.contour_settle || since >= 2.0 * options_.contour_interval;
 }
 
 bool OwnMap::update(Published& published, const OwnContour& contour, const PeerOutlines& outlines, References& references,
                     double now) {
-  if (now - published.looked_at < options_.contour_interval) return true;
+  if (!isDue(published, now)) return true;
   if (published.ids.empty()) {
     published.looked_at = now;
     const std::vector<ContourName> others = outlines.covering(contour.polygon, contour.closed);
@@ -141,9 +165,7 @@ bool OwnMap::write(Published& published, const OwnContour& contour, double now) 
   return !pieces.empty();
 }
 
-void OwnMap::withdrawMissing(const std::vector<OwnContour>& contours, double now) {
-  std::set<std::int64_t> present;
-  for (const OwnContour& contour : contours) present.insert(contour.key);
+void OwnMap::withdrawMissing(const std::set<std::int64_t>& present, double now) {
   for (auto entry = contours_.begin(); entry != contours_.end();) {
     Published& published = entry->second;
     if (present.count(entry->first) == 0 && published.missing_since < 0.0) published.missing_since = now;

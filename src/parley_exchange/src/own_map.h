@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 
 #include "own_log.h"
 #include "parley_exchange/exchange.h"
@@ -36,14 +37,17 @@ class OwnMap {
     std::vector<std::uint32_t> ids;  // [-] of the records; empty while a peer's contour stands for it
     bool settled = false;            // what is published agrees with `given`
     double looked_at = -1e9;         // [s] when it was last published or compared with peers' contours
+    double appeared_at = 0.0;        // [s]
+    double changed_at = 0.0;         // [s] when `given` was last another
     double missing_since = -1.0;     // [s] negative while it is there
   };
 
   bool update(Published& published, const OwnContour& contour, const PeerOutlines& outlines, References& references, double now);
+  bool isDue(const Published& published, double now) const;
   bool differs(const Published& published, const OwnContour& contour) const;
   bool isContested(const Published& published, const References& references) const;
   bool write(Published& published, const OwnContour& contour, double now);
-  void withdrawMissing(const std::vector<OwnContour>& contours, double now);
+  void withdrawMissing(const std::set<std::int64_t>& present, double now);
   void writeAnchor(std::uint32_t id, const Pose2& pose, double distance, double now);
 
   ExchangeOptions options_;

@@ -235,7 +235,9 @@ TEST(Hostile, whatCannotBeTrueIsDroppedAndCounted) {
 }
 
 TEST(Hostile, nobodyElseWritesThisRobotsLog) {
-  Exchange exchange(ExchangeOptions(), identity("victim"));
+  ExchangeOptions options;
+  options.contour_settle = 0.0;
+  Exchange exchange(options, identity("victim"));
   Insider insider(robotIdOf("insider"));
   PacketContent content;
   Record record;

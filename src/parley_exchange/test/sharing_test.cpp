@@ -109,6 +109,47 @@ TEST_F(Sharing, aContourThatChangesReplacesTheOldOne) {
   EXPECT_NEAR(pathLength(held(1, 0).front().polygon), 5.0, 0.1);
 }
 
+TEST_F(Sharing, aContourIsToldWhenItHasSettled) {
+  team.options.contour_settle = 1.5;
+  start(2);
+  team.connectAll();
+  for (int i = 0; i < 5; ++i) {  // the robot drives past a wall
+    publish(0, {wall(1, 0.0, 1.0, 1.0 + 0.5 * i)});
+    team.run(1.0);
+  }
+  EXPECT_TRUE(held(1, 0).empty());
+  for (int i = 0; i < 3; ++i) {
+    publish(0, {wall(1, 0.0, 1.0, 3.0)});
+    team.run(1.0);
+  }
+  ASSERT_EQ(held(1, 0).size(), 1U);
+  EXPECT_LE(team[0].counters().sections_sent.map, 60) << "once, not once for each length";
+}
+
+TEST_F(Sharing, aContourThatNeverSettlesIsToldAllTheSame) {
+  team.options.contour_settle = 1.5;
+  start(2);
+  team.connectAll();
+  for (int i = 0; i < 10; ++i) {
+    publish(0, {wall(1, 0.0, 1.0, 1.0 + 0.5 * i)});
+    team.run(1.0);
+  }
+  EXPECT_EQ(held(1, 0).size(), 1U);
+}
+
+TEST_F(Sharing, singleHitsAreNotTold) {
+  start(2);
+  team.connectAll();
+  publish(0, {wall(1, 0.0, 1.0, 0.05), wall(2, 2.0, 1.0, 0.3)});
+  team.run(2.0);
+  EXPECT_EQ(held(1, 0).size(), 1U);
+  publish(0, {wall(1, 0.0, 1.0, 0.05), wall(2, 2.0, 1.0, 0.1)});  // what shrinks to one is withdrawn
+  team.run(3.0);
+  publish(0, {wall(1, 0.0, 1.0, 0.05), wall(2, 2.0, 1.0, 0.1)});
+  team.run(2.0);
+  EXPECT_TRUE(held(1, 0).empty());
+}
+
 TEST_F(Sharing, aContourThatIsGoneIsWithdrawnEverywhere) {
   start(3);
   team.connect(0, 1);

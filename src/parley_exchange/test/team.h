@@ -12,6 +12,13 @@
 
 namespace parley {
 
+/// The defaults, but for contours that need not stay as they are before they are published.
+inline ExchangeOptions tellingAtOnce() {
+  ExchangeOptions options;
+  options.contour_settle = 0.0;
+  return options;
+}
+
 /// Robots with a radio between them, in steps of 50 ms. Who reaches whom, how much is lost and the clocks are the test's.
 class Team {
  public:
@@ -52,7 +59,7 @@ class Team {
   double loss = 0.0;           // [-]
   double delay_least = 0.005;  // [s]
   double delay_most = 0.03;    // [s]
-  ExchangeOptions options;
+  ExchangeOptions options = tellingAtOnce();
   std::vector<std::pair<double, std::size_t>> sent;  // [s] and [byte] with headers, of all
   std::vector<std::vector<std::pair<double, std::size_t>>> sent_by;
 

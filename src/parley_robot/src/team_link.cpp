@@ -81,10 +81,6 @@ SightReport reportOf(const PeerObservations& sights) {
   return report;
 }
 
-std::int64_t keyOf(const Contour& contour) {
-  return (static_cast<std::int64_t>(contour.tile.x()) * 65536 + contour.tile.y()) * 4096 + contour.piece;
-}
-
 }  // namespace
 
 TeamLink::TeamLink(const ExchangeOptions& exchange, const RelativeLocalizationOptions& relative_localization,
@@ -203,9 +199,11 @@ void TeamLink::tellMap(const std::vector<Contour>& contours, const std::vector<S
   told_contours_.clear();
   std::vector<OwnContour> own;
   own.reserve(contours.size());
-  for (const Contour& c : contours) {
-    own.push_back({keyOf(c), c.polygon, c.closed, c.hole, now});
-    told_contours_.emplace(keyOf(c), c);
+  const std::vector<std::int64_t> keys = contour_keys_.assign(contours);
+  for (std::size_t i = 0; i < contours.size(); ++i) {
+    const Contour& c = contours[i];
+    own.push_back({keys[i], c.polygon, c.closed, c.hole, now});
+    told_contours_.emplace(keys[i], c);
   }
   exchange_.publishContours(own, now);
   contest(seen_through, now);

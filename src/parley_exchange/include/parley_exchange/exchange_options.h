@@ -19,7 +19,7 @@ struct ExchangeOptions {
   double beacon_rate_max = 10.0;       // [Hz]
   double beacon_rate_min = 2.0;        // [Hz]
   int beacon_crowd = 4;                // [-]
-  int digest_entries = 8;              // [-]
+  int digest_entries = 5;              // [-]
 
   double resend_interval = 0.75;  // [s]
   double resend_growth = 1.4;     // [-]
@@ -33,7 +33,9 @@ struct ExchangeOptions {
   double anchor_distance = 4.0;    // [m]
   double drift = 0.01;             // [-]
   double yaw_drift = 0.002;        // [rad/m]
+  double contour_settle = 1.5;     // [s]
   double contour_tolerance = 0.1;  // [m]
+  double contour_extent = 0.25;    // [m]
   double contour_interval = 3.0;   // [s]
   double tombstone_delay = 2.0;    // [s]
   double endorse_distance = 0.15;  // [m]
@@ -77,6 +79,10 @@ struct ExchangeOptions {
     v.number("anchor_distance", anchor_distance, "m", 0.5, 8.0, "way from one anchor to the next");
     v.number("drift", drift, "-", 0.0, 0.5, "standard deviation of odometry per metre");
     v.number("yaw_drift", yaw_drift, "rad/m", 0.0, 0.5, "the same of its yaw");
+    v.number("contour_extent", contour_extent, "m", 0.0, 1.0,
+             "smaller contours are not published: single hits, for the most part");
+    v.number("contour_settle", contour_settle, "s", 0.0, 10.0,
+             "a contour is published when it has not changed for so long, or after two intervals");
     v.number("contour_tolerance", contour_tolerance, "m", 0.0, 1.0, "a contour is published anew where it differs by more");
     v.number("contour_interval", contour_interval, "s", 0.0, 60.0, "between two versions of a contour at least");
     v.number("tombstone_delay", tombstone_delay, "s", 0.0, 60.0, "a contour that is missing so long is withdrawn");

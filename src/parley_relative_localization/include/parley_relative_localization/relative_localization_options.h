@@ -36,7 +36,7 @@ struct RelativeLocalizationOptions {
   int confirm_own_sights = 4;        // [-]
   int confirm_peer_sights = 3;       // [-]
   double confirm_span = 0.3;         // [s]
-  double confirm_travel = 0.8;       // [m]
+  double confirm_travel = 0.5;       // [m]
   double confirm_distinction = 0.5;  // [m]
   double confirm_residual = 1.0;     // [-]
   double confirm_deviation = 0.12;   // [m]

@@ -11,6 +11,7 @@
 #include "parley_lidar/lidar_stage.h"
 #include "parley_planner/peer_motion.h"
 #include "parley_relative_localization/relative_localization.h"
+#include "parley_robot/contour_keys.h"
 #include "parley_robot/packet.h"
 #include "parley_topology/topology.h"
 
@@ -108,6 +109,7 @@ class TeamLink {
   std::map<RobotId, Heard> heard_;
   std::map<std::pair<RobotId, RobotId>, double> edges_;  // [s] when those passed on were written
   std::map<RobotId, Drawn> drawn_;
+  ContourKeys contour_keys_;
   std::map<std::int64_t, Contour> told_contours_;  // by key
   std::vector<Refuted> refuted_;                   // since maps were drawn last
   std::set<RobotId> told_poses_;                   // whose pose has been given to the exchange
