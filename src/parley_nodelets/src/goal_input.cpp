@@ -16,7 +16,8 @@ namespace {
 
 using ActionServer = actionlib::SimpleActionServer<move_base_msgs::MoveBaseAction>;
 
-constexpr double kMoved = 0.005;  // [m] less is not worth another route
+constexpr double kMoved = 0.005;      // [m] less is not worth another route
+constexpr double kLongestWait = 5.0;  // [s] for the local frame's place, before a goal is given up
 
 struct Brought {
   std::optional<Eigen::Vector2d> place;
@@ -32,8 +33,9 @@ struct GoalInput::Parts {
 
   Brought brought(const Eigen::Vector2d& p, const std::string& from, const std::string& to) const;
   Brought toOdom(const geometry_msgs::PoseStamped& pose) const;
-  /// The goal in the local frame; empty as long as nobody has told where that is.
-  std::optional<Eigen::Vector2d> local() const { return brought(*goal_odom, frames.odom, frames.local).place; }
+  /// The goal in the local frame; a problem as long as nobody has told where that is.
+  Brought local() const { return brought(*goal_odom, frames.odom, frames.local); }
+  bool waits(double now);
   void onTopic(const geometry_msgs::PoseStamped& pose);
   void onAction();
   void onPreempt();
@@ -45,6 +47,7 @@ struct GoalInput::Parts {
   std::mutex mutex;
   std::optional<Eigen::Vector2d> goal_odom;              // [m] nothing: stand
   bool is_new = false;                                   // not taken yet
+  std::optional<double> waits_since;                     // [s] for the local frame's place
   Eigen::Vector2d told_local = Eigen::Vector2d::Zero();  // [m] the goal as it was taken
   std::atomic<int> refused{0};
   ActionServer action;
@@ -75,6 +78,13 @@ void GoalInput::Parts::order(const std::optional<Eigen::Vector2d>& goal) {
   const std::lock_guard<std::mutex> lock(mutex);
   goal_odom = goal;
   is_new = true;
+  waits_since.reset();
+}
+
+/// Whether a goal without a place in the local frame is to be kept for now.
+bool GoalInput::Parts::waits(double now) {
+  if (!waits_since || now < *waits_since) waits_since = now;
+  return now - *waits_since <= kLongestWait;
 }
 
 void GoalInput::Parts::onTopic(const geometry_msgs::PoseStamped& pose) {
@@ -116,28 +126,32 @@ GoalInput::GoalInput(const ros::NodeHandle& nh, const Frames& frames) : parts_(s
 
 GoalInput::~GoalInput() = default;
 
-std::optional<GoalOrder> GoalInput::take() {
+std::optional<GoalOrder> GoalInput::take(double now) {
   Parts& p = *parts_;
-  const std::lock_guard<std::mutex> lock(p.mutex);
+  std::unique_lock<std::mutex> lock(p.mutex);
   if (!p.is_new) return std::nullopt;
-  GoalOrder order;
-  if (p.goal_odom) {
-    order.goal_local = p.local();
-    if (!order.goal_local) {
-      ROS_WARN_STREAM_THROTTLE(5.0, "the goal waits for the transform from " << p.frames.odom << " to " << p.frames.local);
-      return std::nullopt;
-    }
-    p.told_local = *order.goal_local;
+  const Brought local = p.goal_odom ? p.local() : Brought();
+  if (!local.problem.empty() && p.waits(now)) {
+    ROS_WARN_STREAM_THROTTLE(5.0, "the goal waits: " << local.problem);
+    return std::nullopt;
   }
   p.is_new = false;
-  return order;
+  if (local.place) p.told_local = *local.place;
+  if (!local.problem.empty()) {
+    p.goal_odom.reset();
+    ++p.refused;
+    lock.unlock();  // the action has a lock of its own
+    ROS_ERROR_STREAM("goal refused: " << local.problem);
+    abort("goal refused: " + local.problem);
+  }
+  return GoalOrder{local.place};
 }
 
 std::optional<Eigen::Vector2d> GoalInput::moved() {
   Parts& p = *parts_;
   const std::lock_guard<std::mutex> lock(p.mutex);
   if (!p.goal_odom || p.is_new) return std::nullopt;
-  std::optional<Eigen::Vector2d> place = p.local();
+  const std::optional<Eigen::Vector2d> place = p.local().place;
   if (!place || (*place - p.told_local).norm() < kMoved) return std::nullopt;
   p.told_local = *place;
   return place;

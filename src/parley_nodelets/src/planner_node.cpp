@@ -85,7 +85,7 @@ void PlannerNode::step() {
 }
 
 void PlannerNode::takeOrder(double now) {
-  const std::optional<GoalOrder> order = orders_->take();
+  const std::optional<GoalOrder> order = orders_->take(now);
   if (!order) {
     carryGoal(now);
     return;

@@ -109,6 +109,21 @@ TEST_F(DrivingTest, AGoalStaysWhereItIsInOdometrysFrame) {
   EXPECT_EQ(goal_.last()->header.frame_id, "odom");
 }
 
+TEST_F(DrivingTest, AGoalThatTheLocalFrameNeverHasIsGivenUp) {
+  pnh("planner").setParam("frames/odom", "drifting");
+  const PlannerNode node(nh_, pnh("planner"), "planner");
+  ActionClient client(nh_, "move_base", false);
+  ASSERT_TRUE(passUntil([&client] { return client.isServerConnected(); }));
+  move_base_msgs::MoveBaseGoal goal;
+  goal.target_pose = pose(3.0, 1.0, "drifting");
+  client.sendGoal(goal);
+  passFor(2.0);
+  EXPECT_FALSE(client.getState().isDone()) << client.getState().getText();
+  ASSERT_TRUE(passUntil([&client] { return client.getState().isDone(); }));
+  EXPECT_EQ(client.getState(), actionlib::SimpleClientGoalState::ABORTED);
+  EXPECT_NE(client.getState().getText().find("drifting"), std::string::npos) << client.getState().getText();
+}
+
 TEST_F(DrivingTest, GoalsThatAreNowhereAreRefused) {
   const PlannerNode node(nh_, pnh("planner"), "planner");
   goals_.publish(pose(std::nan(""), 0.0, "odom"));

@@ -26,8 +26,9 @@ class GoalInput {
   GoalInput(const ros::NodeHandle& nh, const Frames& frames);
   ~GoalInput();
 
-  /// The newest order since the last call; a goal is held back until somebody has told where the local frame is.
-  std::optional<GoalOrder> take();
+  /// The newest order since the last call. A goal is held back until somebody has told where the local frame is; after five
+  /// seconds without that it is refused, and the order is to stand. `now` is the planner's time. [s]
+  std::optional<GoalOrder> take(double now);
   /// Where the last goal lies in the local frame, if that frame has moved in the odom frame since it was last told.
   std::optional<Eigen::Vector2d> moved();
 
