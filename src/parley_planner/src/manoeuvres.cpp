@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "emergency_stop.h"
 #include "narrow_search.h"
 #include "parley_geometry/polygon.h"
 
@@ -78,9 +80,13 @@ std::optional<Proposal> Manoeuvres::driveOn(const ManoeuvreTask& task, const Tra
   return Proposal{SampledTrajectory(std::move(drive.drive.points)), smooth.points(), drive.end, drive.advance, 0.0};
 }
 
-/// The way has turned back: every metre on is to be driven twice.
+/// The way has turned back: every metre on is to be driven twice. Braking along what was committed meets nothing that this would
+/// not have met; on the curve of the moment it may, where that was about to bend back from a wall.
 Proposal Manoeuvres::stop(const ManoeuvreTask& task) const {
-  return {brakingTrajectory(task.start, generator_.limits(), options_.time_step), task.path, DriveEnd::kPathEnd, 0.0, 0.0};
+  const MotionLimits& limits = generator_.limits();
+  SampledTrajectory trajectory = task.committed.empty() ? brakingTrajectory(task.start, limits, options_.time_step)
+                                                        : brakingAlong(task.committed, task.start, limits, options_.time_step);
+  return {std::move(trajectory), task.path, DriveEnd::kPathEnd, 0.0, 0.0};
 }
 
 std::optional<Proposal> Manoeuvres::turnAndDrive(const ManoeuvreTask& task) const {

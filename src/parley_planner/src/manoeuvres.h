@@ -20,8 +20,9 @@ struct Proposal {
 
 /// What is asked of a manoeuvre.
 struct ManoeuvreTask {
-  const Path& path;              // to follow, from where the robot is
-  const TrajectoryPoint& start;  // state it begins in
+  const Path& path;                    // to follow, from where the robot is
+  const TrajectoryPoint& start;        // state it begins in
+  const SampledTrajectory& committed;  // what is driven until then
   const DriveScene& scene;
   Margins margins;
   double push_distance;        // [m] that obstacles push the path away

@@ -63,7 +63,8 @@ void Planner::Pipeline::reset() {
   room_.reset();
   back_ = 0.0;
   failed_escapes_.clear();
-  passing_off_until_ = stranger_until_ = stranger_seen_ = blocked_since_ = blocked_last_ = rested_since_ = -1e9;
+  passing_off_until_ = stranger_until_ = stranger_seen_ = blocked_since_ = blocked_last_ = waited_since_ = waited_last_ =
+      rested_since_ = -1e9;
   stranger_.reset();
   stand_offs_in_row_ = 0;
   reached_ = meets_ = false;
@@ -92,6 +93,7 @@ PlanResult Planner::Pipeline::plan(const PlanRequest& request) {
 
 PlanResult Planner::Pipeline::planFrom(const PlanRequest& request) {
   const TrajectoryPoint start = startState(request);
+  committed_ = request.committed;
   if ((request.goal - goal_).norm() > 0.05) arrived_ = reached_ = false;
   goal_ = request.goal;
   // What is driven already may come nearer than what is newly committed: noise alone must not stop the robot.
@@ -230,6 +232,7 @@ PlanResult Planner::Pipeline::decided(const PlanRequest& request, const Trajecto
                                       const std::optional<Proposal>& proposal, bool committed_valid) {
   if (proposal) return commit(*proposal);
   if (options_.conflict_resolution && !traffic_.peers().empty() && isBehindPeer(start)) {
+    if (stands(start.twist)) outwait(request, start);
     return committed_valid && heedsSight(start)
                ? keep(stands(start.twist) ? PlanCode::kWaiting : PlanCode::kDriving, "waiting for a teammate")
                : brake(request, start, PlanCode::kWaiting, "waiting for a teammate");
@@ -307,8 +310,14 @@ std::optional<Proposal> Planner::Pipeline::along(const Path& path, const Attempt
                          options_.track_margin,
                          traffic_.careful(),
                          options_.peer_margin};
-  const ManoeuvreTask task{
-      path, start, scene, how.margins, how.push_distance, options_.sight_law ? &sight_law_ : nullptr, shape.obstacles()};
+  const ManoeuvreTask task{path,
+                           start,
+                           committed_,
+                           scene,
+                           how.margins,
+                           how.push_distance,
+                           options_.sight_law ? &sight_law_ : nullptr,
+                           shape.obstacles()};
   std::optional<Proposal> proposal = how.squeeze ? manoeuvres_.squeeze(task) : manoeuvres_.propose(task);
   if (!proposal) return std::nullopt;
   const Margins judged{std::max(kLeastMargin + 0.005, 0.4 * how.margins.creeping), 0.5 * how.margins.per_speed,

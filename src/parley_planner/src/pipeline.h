@@ -69,6 +69,8 @@ class Planner::Pipeline {
   PlanResult leave(const PlanRequest& request, const TrajectoryPoint& start, bool committed_valid);
   std::optional<PlanResult> makeRoomForStranger(const PlanRequest& request, const TrajectoryPoint& start);
   void standOff(const PlanRequest& request, const TrajectoryPoint& start);
+  void outwait(const PlanRequest& request, const TrajectoryPoint& start);
+  void backOffFrom(const Eigen::Vector2d& other, const PlanRequest& request, const TrajectoryPoint& start);
   PlanResult standStill(const PlanRequest& request, const TrajectoryPoint& start, PlanCode code, const std::string& why);
   bool isTouched(const PlanRequest& request);
   void lookForRoom(const Eigen::Vector2d& here);
@@ -104,6 +106,8 @@ class Planner::Pipeline {
   double stranger_seen_ = -1e9;                                     // [s]
   double blocked_since_ = -1e9;                                     // [s] by something that moves and is not heard
   double blocked_last_ = -1e9;                                      // [s]
+  double waited_since_ = -1e9;                                      // [s] for a teammate
+  double waited_last_ = -1e9;                                       // [s]
   std::uint32_t stand_offs_ = 0;
   int stand_offs_in_row_ = 0;
   Eigen::Vector2d shut_in_at_ = Eigen::Vector2d::Zero();
@@ -121,6 +125,7 @@ class Planner::Pipeline {
   Route route_;                  // the last one there was
   double routed_at_ = -1e9;      // [s]
   Path path_;                    // that the last commitment follows
+  SampledTrajectory committed_;  // as the plan found it
   double speed_bound_ = 0.0;     // [m/s] by sight, where the robot is
   double planned_at_ = -1e9;     // [s]
   double busy_until_ = -1e9;     // [s]

@@ -25,6 +25,7 @@ constexpr double kOut = 0.7;            // [m] from the place where it wanted to
 constexpr double kBlockedBreak = 1.0;   // [s]
 constexpr double kLeastPatience = 2.0;  // [s] a robot waits for a stranger to go away,
 constexpr double kMorePatience = 5.0;   // [s] or up to so much longer
+constexpr double kLongWait = 8.0;       // [s] at least, for a teammate that stands
 constexpr double kStrangerNear = 8.0;   // [m] who is further off does not come
 constexpr double kStrangerGone = 5.0;   // [s] not seen for so long, it does not come
 constexpr double kStandOffReach = 2.0;  // [m] who is further off does not block
@@ -336,17 +337,41 @@ void Planner::Pipeline::standOff(const PlanRequest& request, const TrajectoryPoi
       });
   if (nearest == traffic_.tracks().end() || !nearest->has_moved) return;
   if ((nearest->position - here).norm() > kStandOffReach + nearest->radius) return;
-  ++stand_offs_;
   blocked_since_ = request.now;
+  backOffFrom(nearest->position, request, start);
+}
+
+/// Waiting for a teammate that stands and sees no reason to make room: by its own estimate of where the two are, it is not in
+/// the way. After a while this robot makes room as if the other came, and tries again from elsewhere.
+void Planner::Pipeline::outwait(const PlanRequest& request, const TrajectoryPoint& start) {
+  if (request.now - waited_last_ > kBlockedBreak) waited_since_ = request.now;
+  waited_last_ = request.now;
+  if (request.now - waited_since_ < kLongWait + kMorePatience * shareOf(request.id, stand_offs_)) return;
+  waited_since_ = request.now;
+  const Eigen::Vector2d here = start.pose.position();
+  const PeerTube* nearest = nullptr;
+  for (const PeerTube& tube : traffic_.tubes()) {
+    if (!tube.standing) continue;
+    const bool is_nearer = nearest == nullptr || (tube.pose.position() - here).norm() < (nearest->pose.position() - here).norm();
+    if (is_nearer) nearest = &tube;
+  }
+  if (nearest == nullptr || (nearest->pose.position() - here).norm() > kStandOffReach) return;
+  stranger_seen_ = request.now;
+  backOffFrom(nearest->pose.position(), request, start);
+}
+
+void Planner::Pipeline::backOffFrom(const Eigen::Vector2d& other, const PlanRequest& request, const TrajectoryPoint& start) {
+  const Eigen::Vector2d here = start.pose.position();
+  ++stand_offs_;
   stand_offs_in_row_ = request.now - stranger_until_ < kSameStandOff ? stand_offs_in_row_ + 1 : 0;
   const double longer = std::exp2(std::min(kMostDoublings, stand_offs_in_row_));
   stranger_until_ = request.now + longer * (kLeastPatience + kMorePatience * shareOf(request.id, stand_offs_ + 1000));
-  const Eigen::Vector2d towards = (here - nearest->position).normalized();
-  const Path through = {nearest->position, here, here + kStrangerReach * towards};
+  const Eigen::Vector2d towards = (here - other).normalized();
+  const Path through = {other, here, here + kStrangerReach * towards};
   stranger_ = PeerTube{0,
                        {3.0, 0, 0},
                        footprint_,
-                       {nearest->position.x(), nearest->position.y(), std::atan2(towards.y(), towards.x())},
+                       {other.x(), other.y(), std::atan2(towards.y(), towards.x())},
                        0.0,
                        resampled(through, kTubeStep),
                        options_.peer_margin,

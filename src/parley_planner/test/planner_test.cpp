@@ -168,6 +168,34 @@ TEST_F(PlannerTest, WhomAStrangerLeavesNoRouteMakesRoomAfterAWhile) {
   EXPECT_GT(furthestIn(11.5, 25.0), 0.3);
 }
 
+TEST_F(PlannerTest, WhoWaitsForATeammateThatDoesNotMakeRoomTriesAgainFromElsewhere) {
+  for (const double wall : {0.0, 5.5}) setCells(&map_, 3.9, wall, 6.0, wall + 4.5, CellState::kOccupied);
+  committed_ = SampledTrajectory::standing(odometry_.pose, 0.0);
+  bool has_waited = false;
+  const auto furthestIn = [&](double from, double to) {
+    double furthest = 0.0;
+    for (double now = from; now < to; now += 0.1) {
+      PeerMotion mate;
+      mate.id = 9;
+      mate.footprint = robotFootprint();
+      mate.trajectory = SampledTrajectory::standing({4.2, 5.0, 0.0}, now);
+      mate.heard = scan_.stamp = now;
+      mate.intent = {{0.0, 9, 0}, {{4.2, 5.0}}};
+      peers_ = {mate};
+      odometry_.pose = committed_.at(now).pose;
+      odometry_.twist = committed_.at(now).twist;
+      const PlanResult result = plan(now);
+      has_waited = has_waited || result.status.is(PlanCode::kWaiting);
+      if (!result.keep_committed) committed_ = result.trajectory;
+      furthest = std::max(furthest, (odometry_.pose.position() - Eigen::Vector2d(3.0, 5.0)).norm());
+    }
+    return furthest;
+  };
+  EXPECT_LT(furthestIn(0.0, 8.0), 0.1);
+  EXPECT_TRUE(has_waited);
+  EXPECT_GT(furthestIn(8.0, 20.0), 0.5);
+}
+
 TEST_F(PlannerTest, WhatIsCommittedIsKeptNoFasterThanSightAllows) {
   committed_ = plan(0.0).trajectory;
   const TrajectoryPoint there = committed_.at(1.2);
@@ -222,6 +250,33 @@ TEST_F(PlannerTest, StopsAtOnceWhenTheRouteTurnsBack) {
   EXPECT_EQ(motionFlaw(result.trajectory.points(), robotLimits()), "");
   const double least = there.twist.speed * there.twist.speed / (2.0 * robotLimits().acceleration);
   EXPECT_LT(result.trajectory.length(), 1.4 * least + 0.1);
+}
+
+TEST_F(PlannerTest, StopsOnWhatIsCommittedWhenTheRouteTurnsBack) {
+  std::vector<TrajectoryPoint> points{{0.9, {3.0, 5.0, 0.4}, {1.6, 0.6}}};  // about to bend the other way, as before a wall
+  while (points.size() < 60) {
+    TrajectoryPoint p = points.back();
+    p.time += 0.05;
+    p.twist.turn_rate = std::max(-1.2, p.twist.turn_rate - 0.15);
+    p.pose = integrateTwist(points.back().pose, 1.6, 0.5 * (points.back().twist.turn_rate + p.twist.turn_rate), 0.05);
+    points.push_back(p);
+  }
+  committed_ = SampledTrajectory(points);
+  const TrajectoryPoint there = committed_.at(1.0);
+  odometry_.pose = there.pose;
+  odometry_.twist = there.twist;
+  goal_ = {1.0, 4.0};
+  route_.points = {there.pose.position(), goal_};
+  const PlanResult result = plan(1.0);
+  ASSERT_FALSE(result.keep_committed);
+  EXPECT_TRUE(result.status.is(PlanCode::kDriving)) << result.status.text;
+  EXPECT_NEAR(result.trajectory.points().back().twist.speed, 0.0, 1e-9);
+  for (const TrajectoryPoint& p : result.trajectory.points()) {
+    double nearest = 1e9;
+    for (double time = 0.9; time < 3.0; time += 0.01)
+      nearest = std::min(nearest, (p.pose.position() - committed_.at(time).pose.position()).norm());
+    EXPECT_LT(nearest, 0.03) << p.time;
+  }
 }
 
 TEST_F(PlannerTest, StartsFromTheOdometryWhenItIsOffTheTrajectory) {
