@@ -151,7 +151,7 @@ std::optional<Eigen::Vector2d> GoalInput::moved() {
   Parts& p = *parts_;
   const std::lock_guard<std::mutex> lock(p.mutex);
   if (!p.goal_odom || p.is_new) return std::nullopt;
-  const std::optional<Eigen::Vector2d> place = p.local().place;
+  std::optional<Eigen::Vector2d> place = p.local().place;
   if (!place || (*place - p.told_local).norm() < kMoved) return std::nullopt;
   p.told_local = *place;
   return place;
