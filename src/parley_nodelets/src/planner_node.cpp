@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "parley_nodelets/planner_node.h"
 
+#include <geometry_msgs/PointStamped.h>
 #include <parley_msgs/Goal.h>
 #include <parley_msgs/Trajectory.h>
 
@@ -38,6 +39,7 @@ PlannerNode::PlannerNode(ros::NodeHandle nh, const ros::NodeHandle& pnh, const s
       trajectory_(nh.advertise<parley_msgs::Trajectory>("trajectory", 1)),
       path_(nh.advertise<nav_msgs::Path>("trajectory_path", 1, true)),
       goal_publisher_(nh.advertise<parley_msgs::Goal>("goal", 1, true)),
+      shut_passage_(nh.advertise<geometry_msgs::PointStamped>("shut_passage", 1)),
       odometry_(nh, config_.node) {
   const auto feed = [this, &nh](const std::string& topic, auto& latest, const Worker::Work& then) {
     using Pointer = decltype(latest.take());
@@ -208,6 +210,13 @@ void PlannerNode::publish(const TimedPlan& plan) {
   if (path_.getNumSubscribers() > 0 && !plan.result.keep_committed) {
     path_.publish(boost::make_shared<nav_msgs::Path>(toPath(plan.result.trajectory, plan.made_at, local)));
   }
+  if (!plan.result.impassable) return;
+  auto passage = boost::make_shared<geometry_msgs::PointStamped>();
+  passage->header.stamp = ros::Time(plan.made_at);
+  passage->header.frame_id = local;
+  passage->point.x = plan.result.impassable->x();
+  passage->point.y = plan.result.impassable->y();
+  shut_passage_.publish(passage);
 }
 
 void PlannerNode::publishGoal(double now) {

@@ -38,6 +38,8 @@ TopologyNode::TopologyNode(ros::NodeHandle nh, const ros::NodeHandle& pnh, const
   goal_subscriber_ = nh.subscribe<parley_msgs::Goal>("goal", 1, [this](const parley_msgs::GoalConstPtr& m) { new_goal_.put(m); });
   peer_maps_subscriber_ = nh.subscribe<parley_msgs::PeerMaps>(
       "peer_maps", 1, [this](const parley_msgs::PeerMapsConstPtr& m) { new_peer_maps_.put(m); });
+  shut_passage_subscriber_ = nh.subscribe<geometry_msgs::PointStamped>(
+      "shut_passage", 1, [this](const geometry_msgs::PointStampedConstPtr& m) { new_shut_passage_.put(m); });
   inputs_.expect<nav_msgs::Odometry>(odometry_.subscriber());
   inputs_.expect<parley_msgs::ObstacleScan>(obstacles_subscriber_);
   diagnostics_.setHardwareID(config_.node.frames.base);
@@ -79,6 +81,7 @@ void TopologyNode::update() {
   forgetIfBroken(now, odometry);
   takeGoal();
   takePeerMaps();
+  takeShutPassage();
   if (odometry.buffer.empty() || !newest_scan_) return;
   last_result_ = topology_->update();
   publishRoute(odometry.buffer.latest().pose);
@@ -92,6 +95,18 @@ void TopologyNode::takeGoal() {
   const bool usable = message->active && position.allFinite() && message->header.frame_id == config_.node.frames.local;
   goal_ = usable ? std::optional<Eigen::Vector2d>(position) : std::nullopt;
   route_ = {};
+}
+
+void TopologyNode::takeShutPassage() {
+  const auto message = new_shut_passage_.take();
+  if (!message) return;
+  const Eigen::Vector2d place(message->point.x, message->point.y);
+  if (!place.allFinite() || message->header.frame_id != config_.node.frames.local ||
+      !continuity_.isCurrent(message->header.stamp.toSec())) {
+    ++rejected_;
+    return;
+  }
+  topology_->shutPassage(place);
 }
 
 /// Draws what is new and takes away what is no longer told.

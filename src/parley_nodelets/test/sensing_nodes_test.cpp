@@ -199,6 +199,24 @@ TEST_F(TopologyNodeTest, DrawsPeersMapsAndTakesThemAway) {
   EXPECT_FALSE(isDrawn());
 }
 
+TEST_F(TopologyNodeTest, ShutsPassagesThatThePlannerDidNotGetThrough) {
+  const TopologyNode node(nh_, pnh("topology"), "topology");
+  ros::Publisher passages = nh_.advertise<geometry_msgs::PointStamped>("shut_passage", 1, true);
+  setGoal(3.6, 0.0, "odom");
+  const auto endsAtGoal = [this] { return route_.count() > 0 && route_.last()->points.back().x > 3.55; };
+  ASSERT_TRUE(passUntil([&] { return endsAtGoal() && route_.last()->verdict == parley_msgs::Route::THROUGH_KNOWN; }));
+  geometry_msgs::PointStamped passage;
+  passage.header.stamp = ros::Time(time_);
+  passage.header.frame_id = "robot_2/odom";
+  passage.point.x = 3.7;
+  passages.publish(passage);
+  passFor(0.5);
+  EXPECT_TRUE(endsAtGoal()) << "a place in another frame";
+  passage.header.frame_id = "odom";
+  passages.publish(passage);
+  EXPECT_TRUE(passUntil([&] { return !endsAtGoal(); }));
+}
+
 TEST_F(TopologyNodeTest, GoalOfAnotherFrameOrNotFiniteIsNoGoal) {
   const TopologyNode node(nh_, pnh("topology"), "topology");
   setGoal(3.0, 0.0, "robot_2/odom");

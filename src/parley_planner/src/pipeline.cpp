@@ -16,6 +16,11 @@ constexpr double kLastStretch = 0.8;      // [s] so little before it ends at the
 constexpr double kLeastMargin = 0.015;    // [m] to single returns, whose noise this is about
 constexpr int kNewTrack = 4;              // [-] scans until a thing that does not move is believed to stand
 constexpr double kWiderPush = 0.25;       // [m] more, where the usual path led nowhere
+constexpr int kGivesUp = 3;               // [-] level of the watch at which a narrow place is taken to be impassable
+constexpr double kNarrow = 0.4;           // [m] from the middle of a narrow place to what stands beside it, at most
+constexpr double kNarrowStep = 0.05;      // [m]
+constexpr double kInPlace = 0.6;          // [m] off a narrow place something fills it
+constexpr double kNarrowBegins = 0.2;     // [m] off the robot's middle
 constexpr double kBlockedReach = 1.5;     // [m] moving things nearer than this are what blocks
 constexpr double kRouteStays = 30.0;      // [s]
 constexpr double kSoon = 0.3;             // [s]
@@ -239,8 +244,32 @@ PlanResult Planner::Pipeline::decided(const PlanRequest& request, const Trajecto
   }
   if (options_.conflict_resolution && stands(start.twist)) standOff(request, start);
   const std::string why = somethingMoved(request) ? "blocked by something that moved" : "blocked";
-  if (committed_valid && heedsSight(start)) return keep(stands(start.twist) ? PlanCode::kBlocked : PlanCode::kDriving, why);
-  return brake(request, start, PlanCode::kBlocked, why);
+  PlanResult result = committed_valid && heedsSight(start)
+                          ? keep(stands(start.twist) ? PlanCode::kBlocked : PlanCode::kDriving, why)
+                          : brake(request, start, PlanCode::kBlocked, why);
+  if (stands(start.twist) && watch_.level() >= kGivesUp) result.impassable = narrowPlaceAhead(request);
+  return result;
+}
+
+/// The narrowest place of the route just ahead, unless something that may drive off is in it; none if it is not narrow.
+std::optional<Eigen::Vector2d> Planner::Pipeline::narrowPlaceAhead(const PlanRequest& request) const {
+  const Eigen::Vector2d here = request.odometry.pose.position();
+  std::optional<Eigen::Vector2d> narrowest;
+  double least = kNarrow;
+  for (const Eigen::Vector2d& p : resampled(wayFrom(route_.points, here, kBlockedReach), kNarrowStep)) {
+    const double room = surroundings_.obstacles().at(p);
+    if (room >= least || (p - here).norm() < kNarrowBegins) continue;
+    least = room;
+    narrowest = p;
+  }
+  if (!narrowest) return std::nullopt;
+  const auto drives = [&](const TrackedObject& track) {
+    return track.has_moved && (track.position - *narrowest).norm() < kInPlace + track.radius;
+  };
+  const auto is_there = [&](const PeerTube& tube) { return (tube.pose.position() - *narrowest).norm() < 2.0 * kInPlace; };
+  const bool taken = std::any_of(traffic_.tracks().begin(), traffic_.tracks().end(), drives) ||
+                     std::any_of(traffic_.tubes().begin(), traffic_.tubes().end(), is_there);
+  return taken ? std::nullopt : narrowest;
 }
 
 Planner::Pipeline::Attempt Planner::Pipeline::usualAttempt() const {

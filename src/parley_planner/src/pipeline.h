@@ -50,6 +50,7 @@ class Planner::Pipeline {
   PlanResult replan(const PlanRequest& request, const TrajectoryPoint& start, bool committed_valid);
   PlanResult decided(const PlanRequest& request, const TrajectoryPoint& start, const std::optional<Proposal>& proposal,
                      bool committed_valid);
+  std::optional<Eigen::Vector2d> narrowPlaceAhead(const PlanRequest& request) const;
   Attempt usualAttempt() const;
   RightOfWay ownRight(const PlanRequest& request) const;
   bool isBehindPeer(const TrajectoryPoint& start) const;

@@ -117,6 +117,34 @@ TEST_F(PlannerTest, SaysWhatBlocks) {
   EXPECT_TRUE(result.status.is(PlanCode::kWaiting));
 }
 
+TEST_F(PlannerTest, TellsWhichNarrowPlaceItDidNotGetThrough) {
+  setCells(&map_, 4.0, 0.0, 4.2, 4.8, CellState::kOccupied);
+  setCells(&map_, 4.0, 5.2, 4.2, 10.0, CellState::kOccupied);
+  committed_ = SampledTrajectory::standing(odometry_.pose, 0.0);
+  const auto live = [&](double from, double until) {
+    PlanResult result;
+    for (double now = from; now < until; now += 0.1) {
+      odometry_.pose = committed_.at(now).pose;
+      odometry_.twist = committed_.at(now).twist;
+      result = plan(now);
+      if (!result.keep_committed) committed_ = result.trajectory;
+    }
+    return result;
+  };
+  EXPECT_FALSE(live(0.1, 5.0).impassable) << "it tries for a while";
+  const PlanResult result = live(5.0, 20.0);
+  EXPECT_TRUE(result.status.is(PlanCode::kBlocked));
+  ASSERT_TRUE(result.impassable);
+  EXPECT_LT((*result.impassable - Eigen::Vector2d(4.1, 5.0)).norm(), 0.2);
+  TrackedObject track;
+  track.position = {4.4, 5.0};
+  track.radius = 0.3;
+  track.has_moved = true;
+  track.observations = 100;
+  tracks_ = {track};
+  EXPECT_FALSE(live(20.0, 21.0).impassable) << "what stands there may drive off";
+}
+
 TEST_F(PlannerTest, ArrivesWithHysteresis) {
   odometry_.pose = {7.9, 5.0, 0.0};
   EXPECT_TRUE(plan(0.0).status.is(PlanCode::kArrived));

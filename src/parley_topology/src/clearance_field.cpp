@@ -125,7 +125,7 @@ void fuse(TiledMap& map, const CellRect& rect, const FieldShape& shape) {
         std::uint8_t& flags = tile->flags[i];
         const std::uint8_t before = flags;
         const bool own_word = ownWord(*tile, i, y - rect.y0, x - rect.x0);
-        setBit(flags, kFused, (flags & kOwn) || (!own_word && tile->layers->hard[i] > 0));
+        setBit(flags, kFused, (flags & kOwn) || (!own_word && tile->layers->hard[i] > 0) || map.isShut(x, y));
         setBit(flags, kTentative, !own_word && tile->layers->soft[i] > 0);
         if ((before ^ flags) & kFused) tile->changed_cells = static_cast<std::uint16_t>(tile->changed_cells | blockBit(x, y));
       }

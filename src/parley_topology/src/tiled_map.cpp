@@ -47,6 +47,22 @@ std::uint16_t TiledMap::secondsOf(double stamp) {
   return static_cast<std::uint16_t>(std::clamp(stamp - *epoch_, 0.0, 65535.0));
 }
 
+void TiledMap::shut(int x, int y) {
+  Tile* tile = ensure(tileOf(x), tileOf(y));
+  if (!tile || isShut(x, y)) return;
+  shut_.emplace_back(x, y);
+  tile->changed_cells = static_cast<std::uint16_t>(tile->changed_cells | blockBit(x, y));
+  note(*tile);
+}
+
+void TiledMap::open(int x, int y) {
+  shut_.erase(std::remove(shut_.begin(), shut_.end(), Eigen::Vector2i(x, y)), shut_.end());
+  Tile* tile = find(tileOf(x), tileOf(y));
+  if (!tile) return;
+  tile->changed_cells = static_cast<std::uint16_t>(tile->changed_cells | blockBit(x, y));
+  note(*tile);
+}
+
 void TiledMap::forgetCell(Tile& tile, int x, int y) {
   const std::size_t i = offsetOf(x, y);
   tile.flags[i] = static_cast<std::uint8_t>(tile.flags[i] & ~(kSeen | kOwn));

@@ -159,6 +159,14 @@ class TiledMap {
   /// stands still.
   std::uint16_t secondsOf(double stamp);
 
+  /// A passage that turned out too narrow to drive is shut as if something stood there, whatever own sensing says.
+  void shut(int x, int y);
+  void open(int x, int y);
+  bool isShut(int x, int y) const {
+    const auto here = [&](const Eigen::Vector2i& cell) { return cell.x() == x && cell.y() == y; };
+    return !shut_.empty() && std::any_of(shut_.begin(), shut_.end(), here);
+  }
+
   /// Layers' outlines told until then [s of the map's clock] are not believed; 0 if all are.
   std::uint16_t doubted() const { return doubted_; }
   void setDoubted(std::uint16_t second) { doubted_ = second; }
@@ -190,6 +198,7 @@ class TiledMap {
   std::size_t max_tiles_;
   bool saturated_ = false;
   std::uint16_t doubted_ = 0;
+  std::vector<Eigen::Vector2i> shut_;
   std::optional<double> epoch_;  // [s] when the map's clock began
   std::vector<Tile*> directory_;
   std::vector<std::unique_ptr<Tile>> tiles_;

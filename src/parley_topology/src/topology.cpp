@@ -9,6 +9,7 @@
 #include "map_outlines.h"
 #include "outline_checks.h"
 #include "route_keeper.h"
+#include "shut_passages.h"
 
 namespace parley {
 namespace {
@@ -59,6 +60,7 @@ struct Topology::Parts {
   GraphBuilder builder;
   RouteKeeper keeper;
   Doubts doubts;
+  ShutPassages shut_passages;
   double newest_scan = -1e18;  // [s]
   int refused = 0;
 };
@@ -100,8 +102,13 @@ std::vector<SeenThrough> Topology::seenThrough() const {
 
 void Topology::forget(const Refuted& outline) { forgetAlong(parts_->map, outline); }
 
+bool Topology::shutPassage(const Eigen::Vector2d& p_odom) {
+  return p_odom.allFinite() && parts_->shut_passages.shut(parts_->map, p_odom);
+}
+
 TopologyResult Topology::update() {
   Parts& p = *parts_;
+  p.shut_passages.review(p.map);
   refreshField(p.map, p.shape);
   const GraphBuilder::Result built = p.builder.update(p.map, p.layers);
   TopologyResult result;
@@ -125,6 +132,7 @@ Route Topology::route(const Pose2& T_odom_base, const Eigen::Vector2d& goal_odom
   }
   const Sight sight(p.map, p.options, p.shape);
   Route route = p.keeper.route(p.map, p.builder.graph(), sight, T_odom_base.position(), goal_odom);
+  if (!route.exists()) p.shut_passages.openAll(p.map);
   p.doubts.consider(p.map, p.newest_scan, route.exists());
   return route;
 }

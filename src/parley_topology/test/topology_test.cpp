@@ -95,6 +95,66 @@ TEST(Topology, doorwaysFromTheSizeOfTheRobotOn) {
   }
 }
 
+/// A wall with a gap of 0.6 m in the straight way and, if there is one, a door far off.
+class Passage : public testing::Test {
+ protected:
+  explicit Passage(bool door = true) : world_(10.0, 10.0) {
+    world_.setBox(4.9, 0.0, 5.1, 2.0);
+    world_.setBox(4.9, 2.6, 5.1, 10.0);
+    if (door) world_.setBox(4.9, 8.0, 5.1, 9.5, false);
+    explore(topology_, world_);
+  }
+  /// Whether the way leads through the gap.
+  bool usesGap() {
+    const Route route = topology_.route(at(2.0, 2.3), {8.0, 2.3});
+    return route.exists() && route.length < 7.0;
+  }
+  TestWorld world_;
+  Topology topology_{{}, testFootprint()};
+};
+
+TEST_F(Passage, thatIsTooNarrowIsAvoidedUntilItIsWider) {
+  ASSERT_TRUE(usesGap());
+  const std::size_t told = topology_.contours().size();
+  EXPECT_TRUE(topology_.shutPassage({5.0, 2.3}));
+  topology_.update();
+  EXPECT_FALSE(usesGap());
+  EXPECT_TRUE(topology_.route(at(2.0, 2.3), {8.0, 2.3}).exists()) << "through the door";
+  EXPECT_EQ(topology_.contours().size(), told) << "others are not told of walls that are none";
+  for (int i = 0; i < 20; ++i) topology_.integrate(world_.scan(at(3.5, 2.3)), at(3.5, 2.3));
+  topology_.update();
+  EXPECT_FALSE(usesGap()) << "seeing through it does not open it";
+  world_.setBox(4.9, 0.5, 5.1, 2.0, false);
+  for (int i = 0; i < 20; ++i) topology_.integrate(world_.scan(at(3.5, 2.3)), at(3.5, 2.3));
+  topology_.update();
+  EXPECT_TRUE(usesGap());
+}
+
+TEST_F(Passage, whereNothingStandsIsNotShut) {
+  EXPECT_FALSE(topology_.shutPassage({2.0, 5.0}));
+  EXPECT_FALSE(topology_.shutPassage({std::nan(""), 5.0}));
+  EXPECT_FALSE(topology_.shutPassage({1e6, 5.0}));
+  EXPECT_TRUE(topology_.shutPassage({5.0, 2.3}));
+  EXPECT_FALSE(topology_.shutPassage({5.0, 2.3})) << "it is shut";
+  topology_.reset();
+  explore(topology_, world_);
+  EXPECT_TRUE(usesGap());
+}
+
+class OnlyPassage : public Passage {
+ protected:
+  OnlyPassage() : Passage(false) {}
+};
+
+TEST_F(OnlyPassage, isTriedAgain) {
+  ASSERT_TRUE(usesGap());
+  ASSERT_TRUE(topology_.shutPassage({5.0, 2.3}));
+  topology_.update();
+  EXPECT_FALSE(usesGap());
+  topology_.update();
+  EXPECT_TRUE(usesGap());
+}
+
 TEST(Topology, sealedOffIsUnreachable) {
   TestWorld world(12.0, 12.0);
   world.setBox(4.0, 4.0, 8.0, 8.0);

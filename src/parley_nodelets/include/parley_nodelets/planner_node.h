@@ -96,6 +96,7 @@ class PlannerNode {
   ros::Publisher trajectory_;
   ros::Publisher path_;
   ros::Publisher goal_publisher_;
+  ros::Publisher shut_passage_;
   Latest<parley_msgs::ObstacleScanConstPtr> new_scan_;
   Latest<parley_msgs::TrackedObjectsConstPtr> new_tracks_;
   Latest<nav_msgs::OccupancyGridConstPtr> new_map_;

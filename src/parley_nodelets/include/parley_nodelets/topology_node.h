@@ -2,6 +2,7 @@
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
+#include <geometry_msgs/PointStamped.h>
 #include <parley_msgs/Goal.h>
 #include <parley_msgs/ObstacleScan.h>
 #include <parley_msgs/PeerMaps.h>
@@ -19,8 +20,8 @@
 
 namespace parley {
 
-/// Topology stage in ROS: `obstacles`, `odom`, `goal` and `peer_maps` become `local_map`, `route`, `contours`, `graph` and
-/// `topology_markers`.
+/// Topology stage in ROS: `obstacles`, `odom`, `goal`, `peer_maps` and `shut_passage` become `local_map`, `route`, `contours`,
+/// `graph` and `topology_markers`.
 class TopologyNode {
  public:
   /// Throws std::invalid_argument with all problems of the parameters.
@@ -32,6 +33,7 @@ class TopologyNode {
   void update();
   void takeGoal();
   void takePeerMaps();
+  void takeShutPassage();
   void publishLocalMap(const Pose2& T_odom_base);
   void publishRoute(const Pose2& T_odom_base);
   void publishPictures();
@@ -49,7 +51,7 @@ class TopologyNode {
   std::optional<double> newest_scan_;    // [s] stamp
   TopologyResult last_result_;
   Route route_;
-  int rejected_ = 0;                         // [-] scans and peers' maps
+  int rejected_ = 0;                         // [-] scans, peers' maps and passages
   std::map<std::string, ros::Time> layers_;  // peers' maps that are drawn: origin and version
 
   ros::Publisher local_map_;
@@ -60,10 +62,12 @@ class TopologyNode {
   Latest<parley_msgs::ObstacleScanConstPtr> obstacles_;
   Latest<parley_msgs::GoalConstPtr> new_goal_;
   Latest<parley_msgs::PeerMapsConstPtr> new_peer_maps_;
+  Latest<geometry_msgs::PointStampedConstPtr> new_shut_passage_;
   OdometryInput odometry_;
   ros::Subscriber obstacles_subscriber_;
   ros::Subscriber goal_subscriber_;
   ros::Subscriber peer_maps_subscriber_;
+  ros::Subscriber shut_passage_subscriber_;
 };
 
 }  // namespace parley

@@ -59,6 +59,8 @@ struct PlanResult {
   Intent intent;                                         // to be told to teammates
   std::optional<Eigen::Vector2d> escape = std::nullopt;  // [m] point on the way to which it makes room
   int escapes = 0;                                       // [-] escape points taken so far
+  /// [m] The narrowest place of the route ahead, where it has found no way past what stands for a while.
+  std::optional<Eigen::Vector2d> impassable = std::nullopt;
 };
 
 /// Turns a route into a motion that ends in a stop inside space seen free: local goal, A*, smoothing, speed profile,

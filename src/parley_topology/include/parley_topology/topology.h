@@ -53,6 +53,10 @@ class Topology {
   /// Forgets what own sensing held occupied along an outline that somebody has seen through since.
   void forget(const Refuted& outline);
 
+  /// A passage on the route at `p_odom` [m] that turned out too narrow to drive: routes avoid it until what stands beside it has
+  /// gone or nothing else leads to the goal. False if nothing stands there.
+  bool shutPassage(const Eigen::Vector2d& p_odom);
+
   /// Brings contours and graph up to date with all that changed since the last call.
   TopologyResult update();
 
