@@ -248,6 +248,7 @@ PlanResult Planner::Pipeline::decided(const PlanRequest& request, const Trajecto
                           ? keep(stands(start.twist) ? PlanCode::kBlocked : PlanCode::kDriving, why)
                           : brake(request, start, PlanCode::kBlocked, why);
   if (stands(start.twist) && watch_.level() >= kGivesUp) result.impassable = narrowPlaceAhead(request);
+  if (result.impassable) watch_.reset();  // should nothing else lead there, it tries anew
   return result;
 }
 
