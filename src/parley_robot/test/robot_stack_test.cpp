@@ -90,10 +90,10 @@ TEST(RobotStack, DrivesAroundABoxToItsGoal) {
 /// A disc of the robot's width gets through a gap and round the box behind it, its rectangle does not: the other door is 5 m off.
 TEST(RobotStack, GivesUpAPassageThatIsTooTightToTurnIn) {
   std::vector<Wall> walls = box(-2.0, -4.0, 10.0, 6.0);
-  for (const auto& [low, high] : {std::pair{-4.0, -0.25}, {0.25, 4.0}, {5.2, 6.0}}) {
+  for (const auto& [low, high] : {std::pair{-4.0, -0.3}, {0.3, 4.0}, {5.2, 6.0}}) {
     for (const Wall& wall : box(3.9, low, 4.0, high)) walls.push_back(wall);
   }
-  for (const Wall& wall : box(4.47, -1.2, 5.0, 1.2)) walls.push_back(wall);
+  for (const Wall& wall : box(4.57, -1.2, 5.1, 1.2)) walls.push_back(wall);
   RobotInWorld world(walls);
   ASSERT_TRUE(world.stack().setGoal({8.0, 0.0}));
   const RobotOutput end = world.run(60.0);
