@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "parley_geometry/polynomial.h"
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
 
 namespace parley {
 
@@ -41,43 +39,6 @@ double QuinticPiece::jerkCost() const {
   const Eigen::Vector2d a = 6.0 * coefficients_.col(3), b = 24.0 * coefficients_.col(4), c = 60.0 * coefficients_.col(5);
   const double t = duration_;
   return t * (a.dot(a) + t * (a.dot(b) + t * ((b.dot(b) + 2.0 * a.dot(c)) / 3.0 + t * (0.5 * b.dot(c) + t * c.dot(c) / 5.0))));
-}
-
-double PolynomialTrajectory::duration() const {
-  double sum = 0.0;
-  for (const QuinticPiece& piece : pieces) sum += piece.duration();
-  return sum;
-}
-
-FlatState PolynomialTrajectory::at(double time) const {
-  assert(!pieces.empty());
-  double t = std::max(0.0, time - start_time);
-  for (const QuinticPiece& piece : pieces) {
-    if (t <= piece.duration()) return piece.at(t);
-    t -= piece.duration();
-  }
-  return pieces.back().at(pieces.back().duration());
-}
-
-SampledTrajectory PolynomialTrajectory::sampled(double time_step, double initial_yaw) const {
-  assert(time_step > 0.0);
-  constexpr double kStanding = 1e-3;  // [m/s] below this the direction of the velocity says nothing
-  std::vector<TrajectoryPoint> points;
-  double yaw = initial_yaw;
-  const double sign = reverse ? -1.0 : 1.0;
-  const int steps = static_cast<int>(std::ceil(duration() / time_step - 1e-9));
-  for (int i = 0; i <= steps; ++i) {
-    const double t = std::min(i * time_step, duration());
-    const FlatState state = at(start_time + t);
-    const double speed = state.velocity.norm();
-    double turn_rate = 0.0;
-    if (speed > kStanding) {
-      yaw = std::atan2(sign * state.velocity.y(), sign * state.velocity.x());
-      turn_rate = (state.velocity.x() * state.acceleration.y() - state.velocity.y() * state.acceleration.x()) / (speed * speed);
-    }
-    points.push_back({start_time + t, {state.position.x(), state.position.y(), yaw}, {sign * speed, turn_rate}});
-  }
-  return SampledTrajectory(std::move(points));
 }
 
 }  // namespace parley

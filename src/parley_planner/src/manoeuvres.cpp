@@ -31,6 +31,16 @@ double firstDirection(const Path& path) {
   return std::atan2(step.y(), step.x());
 }
 
+OptimizerOptions optimizerOptions(const PlannerOptions& options) {
+  OptimizerOptions optimizer;
+  optimizer.iterations = options.optimization_iterations;
+  optimizer.weights.time = options.optimization_time_weight;
+  optimizer.weights.limits = options.optimization_limit_weight;
+  optimizer.weights.push = options.optimization_push_weight;
+  optimizer.weights.deviation = options.optimization_deviation_weight;
+  return optimizer;
+}
+
 }  // namespace
 
 bool isUseful(const std::optional<Proposal>& proposal) {
@@ -40,7 +50,10 @@ bool isUseful(const std::optional<Proposal>& proposal) {
 bool stands(const Twist2& twist) { return std::abs(twist.speed) < kStandingSpeed && std::abs(twist.turn_rate) < kStandingSpeed; }
 
 Manoeuvres::Manoeuvres(const PlannerOptions& options, const Footprint& footprint, const MotionLimits& limits)
-    : options_(options), footprint_(footprint), generator_(footprint, shareOf(limits, options.limit_share), options.time_step) {}
+    : options_(options),
+      footprint_(footprint),
+      generator_(footprint, shareOf(limits, options.limit_share), options.time_step),
+      refinement_(optimizerOptions(options), footprint, generator_.limits()) {}
 
 std::optional<Proposal> Manoeuvres::propose(const ManoeuvreTask& task) const {
   const double off = std::abs(angleBetween(task.start.pose.yaw, firstDirection(task.path)));
@@ -70,14 +83,17 @@ std::optional<Proposal> Manoeuvres::driveOn(const ManoeuvreTask& task, const Tra
   const PathStart entry{{start.pose.x, start.pose.y, wrapAngle(start.pose.yaw + (reverse ? kPi : 0.0))},
                         std::abs(start.twist.speed),
                         start.twist.turn_rate};
-  const ReferencePath smooth = smoothed(path, entry, task.shape, smoothing);
-  const double start_s = smooth.project(start.pose.position(), 0.0, 1.0);
-  std::vector<double> sight;
-  if (task.sight_law && !reverse) sight = task.sight_law->bounds(smooth, start_s, start.twist.speed);
-  if (reverse) sight.assign(smooth.points().size(), options_.reverse_speed);
-  GeneratedDrive drive = generator_.along(smooth, start, reverse, task.scene, task.margins, sight);
-  if (drive.end == DriveEnd::kInfeasible) return std::nullopt;
-  return Proposal{SampledTrajectory(std::move(drive.drive.points)), smooth.points(), drive.end, drive.advance, 0.0};
+  DrivenPath driven{smoothed(path, entry, task.shape, smoothing), {}, {}};
+  const double start_s = driven.path.project(start.pose.position(), 0.0, 1.0);
+  if (task.sight_law && !reverse) driven.sight_bounds = task.sight_law->bounds(driven.path, start_s, start.twist.speed);
+  if (reverse) driven.sight_bounds.assign(driven.path.points().size(), options_.reverse_speed);
+  driven.drive = generator_.along(driven.path, start, reverse, task.scene, task.margins, driven.sight_bounds);
+  if (driven.drive.end == DriveEnd::kInfeasible) return std::nullopt;
+  if (options_.trajectory_optimization && !reverse) {
+    if (std::optional<DrivenPath> better = refinement_.refined(task, driven, generator_)) driven = std::move(*better);
+  }
+  GeneratedDrive& drive = driven.drive;
+  return Proposal{SampledTrajectory(std::move(drive.drive.points)), driven.path.points(), drive.end, drive.advance, 0.0};
 }
 
 /// The way has turned back: every metre on is to be driven twice. Braking along what was committed meets nothing that this would

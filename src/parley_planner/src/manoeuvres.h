@@ -3,9 +3,9 @@
 
 #include <optional>
 
-#include "drive_generator.h"
+#include "drive_refinement.h"
+#include "manoeuvre_task.h"
 #include "parley_planner/planner_options.h"
-#include "sight_law.h"
 
 namespace parley {
 
@@ -16,18 +16,6 @@ struct Proposal {
   DriveEnd end = DriveEnd::kInfeasible;
   double advance = 0.0;     // [m] along the path
   double busy_until = 0.0;  // [s] until then the manoeuvre is not to be interrupted
-};
-
-/// What is asked of a manoeuvre.
-struct ManoeuvreTask {
-  const Path& path;                    // to follow, from where the robot is
-  const TrajectoryPoint& start;        // state it begins in
-  const SampledTrajectory& committed;  // what is driven until then
-  const DriveScene& scene;
-  Margins margins;
-  double push_distance;        // [m] that obstacles push the path away
-  const SightLaw* sight_law;   // null: does not matter
-  const DistanceField& shape;  // what pushes the path away
 };
 
 /// The motions by which a robot gets onto a path and along it: drive on, turn on the spot first, back out of where it cannot
@@ -51,6 +39,7 @@ class Manoeuvres {
   PlannerOptions options_;
   Footprint footprint_;
   DriveGenerator generator_;
+  DriveRefinement refinement_;
 };
 
 constexpr double kSlowSpeed = 0.3;  // [m/s] slower than this a robot may try other manoeuvres than driving on

@@ -16,14 +16,6 @@ constexpr double kMovingSpeed = 0.3;  // [m/s] faster than this the curvature th
 constexpr double kInertia = 0.02;     // [-] against steps, beside a push of one: keeps flat directions still
 constexpr double kLongestStep = 0.1;  // [m] of a point at once, so that none jumps over an obstacle
 
-/// Points of the curve that brought the robot to the start, and the start: what follows bends on from them.
-Path leadIn(const PathStart& start, double spacing) {
-  const double curvature = start.speed > kMovingSpeed ? start.turn_rate / start.speed : 0.0;
-  Path points;
-  for (int i = 2; i >= 0; --i) points.push_back(integrateTwist(start.pose, -1.0, -curvature, i * spacing).position());
-  return points;
-}
-
 // Unknowns are the points' coordinates, x and y in turn: third differences reach three points, seven entries, away.
 using Band = BandedSystem<7>;
 
@@ -139,6 +131,13 @@ double ReferencePath::project(const Eigen::Vector2d& p, double near_s, double re
     }
   }
   return best_s;
+}
+
+Path leadIn(const PathStart& start, double spacing) {
+  const double curvature = start.speed > kMovingSpeed ? start.turn_rate / start.speed : 0.0;
+  Path points;
+  for (int i = 2; i >= 0; --i) points.push_back(integrateTwist(start.pose, -1.0, -curvature, i * spacing).position());
+  return points;
 }
 
 ReferencePath smoothed(const Path& path, const PathStart& start, const DistanceField& obstacles,

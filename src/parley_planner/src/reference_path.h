@@ -44,6 +44,9 @@ struct PathStart {
   double turn_rate = 0.0;  // [rad/s]
 };
 
+/// Points of the curve that brought the robot to the start, `spacing` [m] apart, and the start: what follows bends on from them.
+Path leadIn(const PathStart& start, double spacing);
+
 struct SmoothingOptions {
   double spacing = 0.1;             // [m] between points
   double push_distance = 0.4;       // [m] obstacles nearer than this push the path away

@@ -2,9 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
-
-#include "parley_geometry/trajectory.h"
 
 namespace parley {
 
@@ -30,19 +27,6 @@ class QuinticPiece {
  private:
   Eigen::Matrix<double, 2, 6> coefficients_ = Eigen::Matrix<double, 2, 6>::Zero();
   double duration_ = 0.0;
-};
-
-/// Quintic pieces end to end, driven forwards or backwards as a whole.
-struct PolynomialTrajectory {
-  double start_time = 0.0;  // [s]
-  bool reverse = false;
-  std::vector<QuinticPiece> pieces;
-
-  double duration() const;
-  /// Clamped to the ends.
-  FlatState at(double time) const;
-  /// States every `time_step`, the end included; heading from the velocity, held where the speed is below 1 mm/s.
-  SampledTrajectory sampled(double time_step, double initial_yaw) const;
 };
 
 }  // namespace parley

@@ -16,6 +16,14 @@ struct PlannerOptions {
   double twisting_weight = 2000.0;  // [-]
   int smoothing_iterations = 10;    // [-]
 
+  // Optimisation of the trajectory
+  bool trajectory_optimization = true;
+  int optimization_iterations = 12;             // [-]
+  double optimization_time_weight = 200.0;      // [1/s^5]
+  double optimization_limit_weight = 300.0;     // [-]
+  double optimization_push_weight = 4000.0;     // [1/m^2]
+  double optimization_deviation_weight = 10.0;  // [1/m^2]
+
   // Motion
   double time_step = 0.05;         // [s]
   double limit_share = 0.95;       // [-]
@@ -54,6 +62,16 @@ struct PlannerOptions {
     v.number("bending_weight", bending_weight, "-", 0.1, 10000.0, "how stiff the path is against obstacles' push");
     v.number("twisting_weight", twisting_weight, "-", 0.0, 1000000.0, "how much the path resists changes of curvature");
     v.integer("smoothing_iterations", smoothing_iterations, "-", 0, 1000, "steps of the path smoothing");
+    v.flag("trajectory_optimization", trajectory_optimization, "make forward drives faster by optimising their curve");
+    v.integer("optimization_iterations", optimization_iterations, "-", 0, 1000, "steps of the optimisation at most; 0 is none");
+    v.number("optimization_time_weight", optimization_time_weight, "1/s^5", 0.0, 1000000.0,
+             "cost of a second, beside that of squared jerk");
+    v.number("optimization_limit_weight", optimization_limit_weight, "-", 0.0, 1000000.0,
+             "cost of breaking a limit by all of it, each sample");
+    v.number("optimization_push_weight", optimization_push_weight, "1/m^2", 0.0, 1000000.0,
+             "cost of coming nearer to obstacles than the path should, each sample");
+    v.number("optimization_deviation_weight", optimization_deviation_weight, "1/m^2", 0.0, 1000000.0,
+             "cost of leaving the smoothed path, each sample");
     v.number("time_step", time_step, "s", 0.01, 0.2, "between the states of a trajectory");
     v.number("limit_share", limit_share, "-", 0.5, 1.0, "share of the motion limits that plans use; control has the rest");
     v.number("margin_creeping", margin_creeping, "m", 0.0, 0.5, "distance kept from obstacles when almost standing");
