@@ -68,7 +68,7 @@ void optimizeADrive(benchmark::State& state) {
       benchmark::DoNotOptimize(refinement.refined(task, first, generator));
     } else {
       benchmark::DoNotOptimize(
-          optimizer.optimized({first.path, first.drive.drive.points, {}, scene, margins, surroundings.obstacles(), 0.6}));
+          optimizer.optimized({first.path, first.drive.drive.points, {}, {}, scene, margins, surroundings.obstacles(), 0.6}));
     }
   }
 }

@@ -17,11 +17,28 @@ constexpr double kSharpestTurn = 0.6;        // [rad] between neighbouring lines
 constexpr double kAdvanceTolerance = 0.05;   // [m]
 constexpr double kDistanceTolerance = 0.02;  // [m]
 constexpr double kBeside = 0.2;              // [m] along the path, within which its least distance counts
+constexpr double kToTheSide = 0.15;          // [m] of a path, where sight is asked too
 constexpr double kFaster = 0.99;             // [-] a drive that takes no less time than this share of another's takes the same
 
 /// Where along a path a point is, which lies further on than `from` [m].
 double placeOn(const ReferencePath& path, const Eigen::Vector2d& p, double from) {
   return path.project(p, 0.5 * (from + path.length()), 0.5 * (path.length() - from));
+}
+
+/// How fast the bound of sight grows to the left of each of a path's points, from the bounds on both sides. [1/s]
+std::vector<double> slopesBeside(const ReferencePath& path, const SightLaw& sight, double start_s, double speed) {
+  const auto boundsAt = [&](double left) {
+    Path points = path.points();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double yaw = path.at(path.arcLengths()[i]).yaw;
+      points[i] += left * Eigen::Vector2d(-std::sin(yaw), std::cos(yaw));
+    }
+    return sight.bounds(ReferencePath(std::move(points)), start_s, speed);
+  };
+  const std::vector<double> right = boundsAt(-kToTheSide);
+  std::vector<double> slopes = boundsAt(kToTheSide);
+  for (std::size_t i = 0; i < slopes.size(); ++i) slopes[i] = (slopes[i] - right[i]) / (2.0 * kToTheSide);
+  return slopes;
 }
 
 PathStart entryOf(const TrajectoryPoint& start) { return {start.pose, start.twist.speed, start.twist.turn_rate}; }
@@ -46,8 +63,11 @@ std::optional<DrivenPath> DriveRefinement::refined(const ManoeuvreTask& task, co
   if (initial.drive.end == DriveEnd::kInfeasible || initial.drive.advance < kWorthwhileWay) return std::nullopt;
   const std::vector<TrajectoryPoint>& driven = initial.drive.drive.points;
   const TrajectoryPoint& start = driven.front();
+  std::vector<double> slopes;
+  const double driven_from = initial.drive.drive.arc_lengths.front();
+  if (task.sight_law != nullptr) slopes = slopesBeside(initial.path, *task.sight_law, driven_from, start.twist.speed);
   const std::optional<PiecewiseQuintic> curve = optimizer_.optimized(
-      {initial.path, driven, initial.sight_bounds, task.scene, task.margins, task.shape, task.push_distance});
+      {initial.path, driven, initial.sight_bounds, slopes, task.scene, task.margins, task.shape, task.push_distance});
   if (!curve) return std::nullopt;
   std::optional<ReferencePath> path = pathOf(*curve, entryOf(start), initial.path, initial.drive.drive.arc_lengths.back());
   if (!path || !keepsDistance(*path, initial.path, task.shape, task.push_distance)) return std::nullopt;
@@ -56,8 +76,7 @@ std::optional<DrivenPath> DriveRefinement::refined(const ManoeuvreTask& task, co
   if (task.sight_law != nullptr) sight = task.sight_law->bounds(*path, start_s, start.twist.speed);
   GeneratedDrive drive = generator.along(*path, start, false, task.scene, task.margins, sight);
   if (drive.end == DriveEnd::kInfeasible || !endsAsWell(drive.end, initial.drive.end)) return std::nullopt;
-  const double from = initial.drive.drive.arc_lengths.front();
-  drive.advance = placeOn(initial.path, drive.drive.points.back().pose.position(), from) - from;
+  drive.advance = placeOn(initial.path, drive.drive.points.back().pose.position(), driven_from) - driven_from;
   if (drive.advance < initial.drive.advance - kAdvanceTolerance) return std::nullopt;
   if (!isBetter(drive, drive.advance, initial.drive, generator.limits().speed)) return std::nullopt;
   return DrivenPath{std::move(*path), std::move(sight), std::move(drive)};

@@ -25,6 +25,7 @@ struct TermWeights {
 struct SampleScene {
   const ReferencePath& reference;
   std::vector<double> speed_bounds;  // [m/s] at each of the reference's points
+  std::vector<double> speed_slopes;  // [1/s] by which they grow per metre to the left
   std::vector<double> distances;     // [m] to what pushes paths away, to be kept at each of the reference's points
   const DistanceField& obstacles;
   const DistanceField& shape;  // what pushes paths away
@@ -46,7 +47,17 @@ struct CurveSample {
   std::size_t residualCount(const SampleScene& scene) const { return 6 + scene.discs.size() + peers.size(); }
 };
 
+constexpr double kLeastBound = 0.2;   // [m/s] that a bound on the speed falls to beside the reference
 constexpr double kSampleReach = 0.6;  // [m] along the reference within which a sample's nearest point is sought
+
+/// The speed [m/s] that sight and the drive allow beside the reference.
+template <class T>
+T speedBound(const SampleScene& scene, const PathOffset<T>& offset) {
+  const T slope = valueAlong(scene.reference, scene.speed_slopes, offset.along);
+  const T bound = valueAlong(scene.reference, scene.speed_bounds, offset.along) + slope * offset.lateral;
+  if (bound > T(scene.limits.speed)) return T(scene.limits.speed);
+  return bound < T(kLeastBound) ? T(kLeastBound) : bound;
+}
 
 /// Square roots of the penalties S of equation 1 at one sample, `residualCount` of them.
 template <class T>
@@ -56,7 +67,7 @@ void evaluateSample(const SampleScene& scene, const CurveSample& sample, const T
   const double limit = std::sqrt(weights.limits), margin = std::sqrt(weights.margin);
   const PathOffset<T> offset = offsetFrom<T>(scene.reference, x.position, sample.near_s, kSampleReach);
   const Eigen::Matrix<T, 2, 1> heading = headingOf(x, sample.heading);
-  *residuals++ = T(limit / limits.speed) * speedExcess(x, valueAlong(scene.reference, scene.speed_bounds, offset.along));
+  *residuals++ = T(limit / limits.speed) * speedExcess<T>(x, speedBound(scene, offset));
   *residuals++ = T(limit / limits.turn_rate) * turnRateExcess(x, limits.turn_rate);
   *residuals++ = T(limit / limits.acceleration) * accelerationExcess(x, limits.acceleration);
   *residuals++ = T(limit / limits.turn_acceleration) * turnAccelerationExcess(x, limits.turn_acceleration);

@@ -93,12 +93,13 @@ TrajectoryOptimizer::TrajectoryOptimizer(const OptimizerOptions& options, const 
     : options_(options), footprint_(footprint), limits_(limits) {}
 
 SampleScene TrajectoryOptimizer::sceneOf(const OptimizationTask& task) const {
-  SampleScene scene{task.reference,       {}, {}, task.scene.surroundings.obstacles(), task.shape, task.margins, limits_,
-                    footprint_.polygon(), {}, 0.0};
+  const DistanceField& obstacles = task.scene.surroundings.obstacles();
+  SampleScene scene{task.reference, {}, {}, {}, obstacles, task.shape, task.margins, limits_, footprint_.polygon(), {}, 0.0};
   const std::vector<Eigen::Vector2d>& points = task.reference.points();
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double sight = i < task.sight_bounds.size() ? task.sight_bounds[i] : limits_.speed;
     scene.speed_bounds.push_back(std::min(limits_.speed, sight));
+    scene.speed_slopes.push_back(i < task.sight_slopes.size() ? task.sight_slopes[i] : 0.0);
     scene.distances.push_back(std::min(task.push_distance, task.shape.at(points[i])));
   }
   const DiscCover cover = coverWithDiscs(footprint_, kDiscs);

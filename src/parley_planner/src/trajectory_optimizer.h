@@ -23,6 +23,7 @@ struct OptimizationTask {
   const ReferencePath& reference;             // that the drive follows
   const std::vector<TrajectoryPoint>& drive;  // to begin with; its first state and its last position are kept
   const std::vector<double>& sight_bounds;    // [m/s] at each of the reference's points; may be empty
+  const std::vector<double>& sight_slopes;    // [1/s] by which they grow per metre to the left; may be empty
   const DriveScene& scene;
   Margins margins;
   const DistanceField& shape;  // what pushes paths away

@@ -167,8 +167,8 @@ double costError(const ceres::CostFunction& cost, std::vector<std::vector<double
 TEST_F(TermsTest, WholeCostsHaveTheirDerivatives) {
   const DistanceField& field = surroundings_.obstacles();
   const SampleScene scene{
-      reference_,           std::vector<double>(51, 0.7), std::vector<double>(51, 0.6), field, field, {0.2, 0.1, 0.2},
-      {1.0, 0.8, 1.0, 2.0}, robotFootprint().polygon(),   {{-0.25, 0.0}, {0.25, 0.0}},  0.24};
+      reference_,      std::vector<double>(51, 0.7), std::vector<double>(51, 0.3), std::vector<double>(51, 0.6), field, field,
+      {0.2, 0.1, 0.2}, {1.0, 0.8, 1.0, 2.0},         robotFootprint().polygon(),   {{-0.25, 0.0}, {0.25, 0.0}},  0.24};
   const TermWeights weights{1.0, 1.0, 1.0, 1.0, 1.0};
   int wrong = 0;
   for (int i = 0; i < 100; ++i) {

@@ -90,7 +90,7 @@ TEST_F(RefinementTest, SameInputsSameBits) {
   const auto curve = [&] {
     const DriveScene around = scene();
     return TrajectoryOptimizer(options_, robotFootprint(), robotLimits())
-        .optimized({before.path, before.drive.drive.points, {}, around, kMargins, surroundings_.obstacles(), kPush});
+        .optimized({before.path, before.drive.drive.points, {}, {}, around, kMargins, surroundings_.obstacles(), kPush});
   };
   const std::optional<PiecewiseQuintic> a = curve(), b = curve();
   ASSERT_TRUE(a && b);
@@ -128,7 +128,7 @@ TEST_F(RefinementTest, PassesATeammateThatDrives) {
   const DriveScene around = scene();
   const std::optional<PiecewiseQuintic> curve =
       TrajectoryOptimizer(options_, robotFootprint(), robotLimits())
-          .optimized({alone.path, alone.drive.drive.points, {}, around, kMargins, surroundings_.obstacles(), kPush});
+          .optimized({alone.path, alone.drive.drive.points, {}, {}, around, kMargins, surroundings_.obstacles(), kPush});
   ASSERT_TRUE(curve);
   const auto leastApart = [&](const SampledTrajectory& trajectory) {
     double least = 1e3;
@@ -146,7 +146,7 @@ TEST_F(RefinementTest, StartsFromStandingAlongItsHeading) {
   const DriveScene around = scene();
   const std::optional<PiecewiseQuintic> curve =
       TrajectoryOptimizer(options_, robotFootprint(), robotLimits())
-          .optimized({before.path, before.drive.drive.points, {}, around, kMargins, surroundings_.obstacles(), kPush});
+          .optimized({before.path, before.drive.drive.points, {}, {}, around, kMargins, surroundings_.obstacles(), kPush});
   ASSERT_TRUE(curve);
   const SampledTrajectory sampled = curve->sampled(0.0, 0.02, 0.3);
   EXPECT_NEAR(sampled.points()[1].pose.yaw, 0.3, 0.02);
@@ -162,7 +162,7 @@ TEST_F(RefinementTest, RefusesWhatIsNoDrive) {
   const TrajectoryPoint start{0.0, {2.0, 5.0, 0.0}, {}};
   for (const std::vector<TrajectoryPoint>& drive :
        {std::vector<TrajectoryPoint>{}, {start}, {start, {0.05, start.pose, {}}}, {start, {9.0, start.pose, {}}}}) {
-    EXPECT_FALSE(optimizer.optimized({reference, drive, {}, around, kMargins, surroundings_.obstacles(), kPush}));
+    EXPECT_FALSE(optimizer.optimized({reference, drive, {}, {}, around, kMargins, surroundings_.obstacles(), kPush}));
   }
   EXPECT_FALSE(refined(initial({{2.0, 5.0}, {2.4, 5.0}}, start))) << "too short to be worth it";
   DrivenPath infeasible = initial({{2.0, 5.0}, {6.0, 5.0}}, start);
