@@ -22,7 +22,7 @@ constexpr double kSameAnchor = 1e-6;  // [m] [rad]
 
 struct Node {
   Anchor anchor;
-  std::array<double, 3> pose{};  // x [m], y [m], yaw [rad] in own odom
+  double* pose = nullptr;  // x [m], y [m], yaw [rad] in own odom; see layOut
   bool placed = false;
 };
 
@@ -31,7 +31,7 @@ using Nodes = std::map<std::string, std::vector<Node>>;  // each robot's by trav
 Pose2 poseOf(const Node& node) { return {node.pose[0], node.pose[1], wrapAngle(node.pose[2])}; }
 
 void place(Node& node, const Pose2& pose) {
-  node.pose = {pose.x, pose.y, pose.yaw};
+  std::copy_n(std::array{pose.x, pose.y, pose.yaw}.begin(), 3, node.pose);
   node.placed = true;
 }
 
@@ -46,7 +46,22 @@ void addAnchor(std::vector<Node>& nodes, const Anchor& anchor) {
     if (difference(node.anchor, anchor) < kSameAnchor) return;
   }
   const auto farther = [](double travel, const Node& node) { return travel < node.anchor.travel; };
-  nodes.insert(std::upper_bound(nodes.begin(), nodes.end(), anchor.travel, farther), Node{anchor, {}, false});
+  nodes.insert(std::upper_bound(nodes.begin(), nodes.end(), anchor.travel, farther), Node{anchor});
+}
+
+/// Gives the nodes room for their poses, one after the other. The covariances' last bits depend on the order of the addresses.
+std::vector<double> layOut(Nodes& nodes) {
+  std::size_t count = 0;
+  for (const auto& [name, anchors] : nodes) count += anchors.size();
+  std::vector<double> poses(3 * count, 0.0);
+  double* next = poses.data();
+  for (auto& [name, anchors] : nodes) {
+    for (Node& node : anchors) {
+      node.pose = next;
+      next += 3;
+    }
+  }
+  return poses;
 }
 
 Node& find(std::vector<Node>& nodes, const Anchor& anchor) {
@@ -91,7 +106,7 @@ void addResidual(ceres::Problem& problem, Node& a, Node& b, const PoseEstimate& 
   auto error = std::make_unique<RelativePoseError>(T_a_b.pose, rootOfInformation(T_a_b.covariance));
   auto cost = std::make_unique<ceres::AutoDiffCostFunction<RelativePoseError, 3, 3, 3>>(error.release());
   auto loss = measured ? std::make_unique<ceres::CauchyLoss>(kCauchy) : nullptr;
-  problem.AddResidualBlock(cost.release(), loss.release(), a.pose.data(), b.pose.data());
+  problem.AddResidualBlock(cost.release(), loss.release(), a.pose, b.pose);
 }
 
 void buildProblem(ceres::Problem& problem, Nodes& nodes, const std::vector<RelativeEdge>& edges,
@@ -151,6 +166,7 @@ std::map<std::string, GraphEstimate> solveAnchors(const std::string& own_name, c
     addAnchor(nodes[edge.from], fromOf(edge));
     addAnchor(nodes[edge.to], toOf(edge));
   }
+  std::vector<double> poses = layOut(nodes);
   Node& origin = find(nodes[own_name], own);
   place(origin, own.T_odom_base);
   placeAlong(nodes[own_name], origin);
@@ -158,15 +174,15 @@ std::map<std::string, GraphEstimate> solveAnchors(const std::string& own_name, c
   ceres::Problem problem;
   buildProblem(problem, nodes, edges, options);
   std::map<std::string, GraphEstimate> estimates;
-  if (problem.NumResidualBlocks() == 0 || !problem.HasParameterBlock(origin.pose.data())) return estimates;
-  problem.SetParameterBlockConstant(origin.pose.data());
+  if (problem.NumResidualBlocks() == 0 || !problem.HasParameterBlock(origin.pose)) return estimates;
+  problem.SetParameterBlockConstant(origin.pose);
   if (!solve(problem)) return estimates;
   std::vector<std::string> names;
   std::vector<const double*> blocks;
   for (const auto& [name, anchors] : nodes) {
     if (name == own_name || !anchors.back().placed) continue;
     names.push_back(name);
-    blocks.push_back(anchors.back().pose.data());
+    blocks.push_back(anchors.back().pose);
   }
   std::vector<Covariance3> covariances;
   if (blocks.empty() || !covariancesOf(problem, blocks, covariances)) return estimates;

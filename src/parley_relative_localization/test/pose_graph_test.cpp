@@ -6,6 +6,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <optional>
 #include <random>
 
 #include "clique.h"
@@ -116,6 +117,24 @@ TEST(PoseGraph, twoEdgesMakeAChain) {
   EXPECT_GT(estimates.at("c").T_odom_peerodom.covariance.trace(), estimates.at("b").T_odom_peerodom.covariance.trace());
   graph.forget("b");
   EXPECT_TRUE(graph.solve({{1.5, 1.2, 0.3}, 5.6}).empty());
+}
+
+/// Whatever else has been allocated and freed between the solutions.
+TEST(PoseGraph, sameEdgesGiveTheSameBits) {
+  std::mt19937 random(5);
+  std::vector<std::vector<char>> ballast;
+  std::optional<Covariance3> first;
+  for (int trial = 0; trial < 200; ++trial) {
+    for (int i = 0; i < 40; ++i) ballast.emplace_back(16 + random() % 400);
+    for (int i = 0; i < 30; ++i) ballast.erase(ballast.begin() + static_cast<std::ptrdiff_t>(random() % ballast.size()));
+    PoseGraph graph({}, "a");
+    graph.add(edgeOf("a", kOdomA, {1.0, 1.0, 0.2}, "b", kOdomB, {0.5, -1.0, 1.0}, 10.0, 5.0));
+    graph.add(edgeOf("b", kOdomB, {3.5, 0.0, 1.3}, "c", kOdomC, {2.0, 0.0, 0.1}, 12.0, 8.5));
+    graph.add(edgeOf("a", kOdomA, {4.0, 1.5, 0.4}, "c", kOdomC, {1.0, -2.0, 0.7}, 14.0, 9.5));
+    const Covariance3 found = graph.solve({{4.5, 1.2, 0.3}, 10.0}).at("c").T_odom_peerodom.covariance;
+    if (!first) first = found;
+    ASSERT_TRUE(found == *first) << "solution " << trial;
+  }
 }
 
 TEST(PoseGraph, covarianceIsThatOfTrials) {
