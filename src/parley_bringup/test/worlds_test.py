@@ -223,6 +223,31 @@ class WorldsTest(unittest.TestCase):
                     self.assertTrue(filecmp.cmp(path, made, shallow=False), path)
 
 
+class RandomWorldsTest(unittest.TestCase):
+    @staticmethod
+    def make(folder, seed):
+        script = os.path.join(ROOT, 'scripts', 'make_worlds')
+        subprocess.run([script, folder, '--random', '1', '--seed', str(seed)], check=True)
+        return {name: load(os.path.join(folder, 'scenarios', name + '.yaml')) for name in ('aisles_1', 'blocks_1', 'rooms_1')}
+
+    def test_every_goal_can_be_reached(self):
+        for seed in (1, 2, 3):
+            with tempfile.TemporaryDirectory() as folder:
+                for name, scenario in self.make(folder, seed).items():
+                    world = World(os.path.join(folder, 'scenarios', scenario['map']))
+                    self.assertEqual(len(scenario['robots']), 8)
+                    for robot in scenario['robots']:
+                        self.assertTrue(world.connected(0.4, robot['start'][:2], robot['goal']), (seed, name, robot['name']))
+
+    def test_follow_from_the_seed(self):
+        with tempfile.TemporaryDirectory() as one, tempfile.TemporaryDirectory() as same, tempfile.TemporaryDirectory() as other:
+            self.assertEqual(self.make(one, 1), self.make(same, 1))
+            self.assertNotEqual(self.make(one, 1), self.make(other, 2))
+            for path in glob.glob(one + '/*.png'):
+                made = os.path.join(same, os.path.basename(path))
+                self.assertTrue(np.array_equal(cv2.imread(path, 0), cv2.imread(made, 0)), path)
+
+
 class ScenariosTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
