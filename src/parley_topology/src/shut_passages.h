@@ -16,7 +16,6 @@ class ShutPassages {
   /// Opens those beside which less stands than when they were shut.
   void review(TiledMap& map);
   void openAll(TiledMap& map);
-  bool empty() const { return passages_.empty(); }
 
  private:
   struct Passage {

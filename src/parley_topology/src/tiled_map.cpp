@@ -88,6 +88,7 @@ void TiledMap::clear() {
   std::fill(directory_.begin(), directory_.end(), nullptr);
   saturated_ = false;
   doubted_ = 0;
+  shut_.clear();
   epoch_.reset();
 }
 
