@@ -59,8 +59,8 @@ void optimizeADrive(benchmark::State& state) {
   const Path corners = {{2.4, 2.8}, {5.2, 2.8}, {5.2, 5.0}};
   DrivenPath first{smoothed(corners, {start.pose, 1.5, 0.0}, surroundings.obstacles(), smoothing), {}, {}};
   first.drive = generator.along(first.path, start, false, scene, margins, {});
-  const TrajectoryOptimizer optimizer({}, robotFootprint(), robotLimits());
-  const DriveRefinement refinement({}, robotFootprint(), robotLimits());
+  const TrajectoryOptimizer optimizer(optimizerOptions({}), robotFootprint(), robotLimits());
+  const DriveRefinement refinement(optimizerOptions({}), robotFootprint(), robotLimits());
   const SampledTrajectory none;
   const ManoeuvreTask task{corners, start, none, scene, margins, 0.6, nullptr, surroundings.obstacles()};
   for (auto _ : state) {

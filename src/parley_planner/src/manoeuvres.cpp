@@ -31,16 +31,6 @@ double firstDirection(const Path& path) {
   return std::atan2(step.y(), step.x());
 }
 
-OptimizerOptions optimizerOptions(const PlannerOptions& options) {
-  OptimizerOptions optimizer;
-  optimizer.iterations = options.optimization_iterations;
-  optimizer.weights.time = options.optimization_time_weight;
-  optimizer.weights.limits = options.optimization_limit_weight;
-  optimizer.weights.push = options.optimization_push_weight;
-  optimizer.weights.deviation = options.optimization_deviation_weight;
-  return optimizer;
-}
-
 }  // namespace
 
 bool isUseful(const std::optional<Proposal>& proposal) {

@@ -18,7 +18,6 @@ constexpr int kNewTrack = 4;              // [-] scans until a thing that does n
 constexpr double kWiderPush = 0.25;       // [m] more, where the usual path led nowhere
 constexpr int kGivesUp = 3;               // [-] level of the watch at which a narrow place is taken to be impassable
 constexpr double kNarrow = 0.4;           // [m] from the middle of a narrow place to what stands beside it, at most
-constexpr double kNarrowStep = 0.05;      // [m]
 constexpr double kInPlace = 0.6;          // [m] off a narrow place something fills it
 constexpr double kNarrowBegins = 0.2;     // [m] off the robot's middle
 constexpr double kBlockedReach = 1.5;     // [m] moving things nearer than this are what blocks
@@ -257,7 +256,7 @@ std::optional<Eigen::Vector2d> Planner::Pipeline::narrowPlaceAhead(const PlanReq
   const Eigen::Vector2d here = request.odometry.pose.position();
   std::optional<Eigen::Vector2d> narrowest;
   double least = kNarrow;
-  for (const Eigen::Vector2d& p : resampled(wayFrom(route_.points, here, kBlockedReach), kNarrowStep)) {
+  for (const Eigen::Vector2d& p : wayFrom(route_.points, here, kBlockedReach)) {
     const double room = surroundings_.obstacles().at(p);
     if (room >= least || (p - here).norm() < kNarrowBegins) continue;
     least = room;

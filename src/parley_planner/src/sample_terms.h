@@ -14,11 +14,11 @@ namespace parley {
 
 /// What the terms count, as weights of squares in equation 1 of the paper.
 struct TermWeights {
-  double time = 200.0;      // [1/s^5] w_T beside an integral of squared jerk in m^2/s^5
-  double limits = 300.0;    // [-] of an excess in units of the limit, per sample
-  double margin = 2e4;      // [1/m^2] of a margin or a distance to a teammate that is lacking, per sample
-  double push = 4e3;        // [1/m^2] of what is lacking of the distance that paths keep, per sample
-  double deviation = 10.0;  // [1/m^2] of the distance to the path that it begins with, per sample
+  double time;       // [1/s^5] w_T beside an integral of squared jerk in m^2/s^5
+  double limits;     // [-] of an excess in units of the limit, per sample
+  double margin;     // [1/m^2] of a margin or a distance to a teammate that is lacking, per sample
+  double push;       // [1/m^2] of what is lacking of the distance that paths keep, per sample
+  double deviation;  // [1/m^2] of the distance to the path that it begins with, per sample
 };
 
 /// What all samples of a curve are judged by.

@@ -8,32 +8,35 @@
 
 namespace parley {
 
+/// The greatest of some numbers, each times `sign`, and the sum of exponentials of what the others lack of it.
+template <class T>
+struct SmoothPeak {
+  T greatest;
+  T sum = T(0.0);
+
+  SmoothPeak(const std::vector<T>& values, double sign, double sharpness) : greatest(T(sign) * values.front()) {
+    using std::exp;
+    for (const T& value : values) {
+      if (T(sign) * value > greatest) greatest = T(sign) * value;
+    }
+    for (const T& value : values) sum += exp((T(sign) * value - greatest) * T(sharpness));
+  }
+};
+
 /// The greatest of some numbers, smoothly, and never more than that: less by at most log(count) / sharpness.
 template <class T>
 T smoothGreatest(const std::vector<T>& values, double sharpness) {
-  using std::exp;
   using std::log;
-  T greatest = values.front();
-  for (const T& value : values) {
-    if (value > greatest) greatest = value;
-  }
-  T sum(0.0);
-  for (const T& value : values) sum += exp((value - greatest) * T(sharpness));
-  return greatest + log(sum / T(static_cast<double>(values.size()))) / T(sharpness);
+  const SmoothPeak<T> peak(values, 1.0, sharpness);
+  return peak.greatest + log(peak.sum / T(static_cast<double>(values.size()))) / T(sharpness);
 }
 
 /// The least of some numbers, smoothly, and never more than that: less by at most log(count) / sharpness.
 template <class T>
 T smoothLeast(const std::vector<T>& values, double sharpness) {
-  using std::exp;
   using std::log;
-  T least = values.front();
-  for (const T& value : values) {
-    if (value < least) least = value;
-  }
-  T sum(0.0);
-  for (const T& value : values) sum += exp((least - value) * T(sharpness));
-  return least - log(sum) / T(sharpness);
+  const SmoothPeak<T> peak(values, -1.0, sharpness);
+  return -peak.greatest - log(peak.sum) / T(sharpness);
 }
 
 /// Signed distance of two convex, counter-clockwise polygons that has derivatives everywhere: the widest gap along any edge's

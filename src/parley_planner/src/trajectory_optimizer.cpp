@@ -20,6 +20,7 @@ constexpr double kStandingStart = 0.05;      // [m/s] slower than this the accel
 constexpr double kStartShare = 0.5;          // [-] of the acceleration, at a start from standing
 constexpr int kDiscs = 3;                    // that cover the footprint
 constexpr double kPeerReach = 1.0;           // [m] teammates further off than this are left out
+constexpr double kMarginWeight = 2e4;        // [1/m^2] of a margin that is lacking, per sample
 constexpr double kFunctionTolerance = 1e-4;  // [-] relative gain below which no more steps are made
 
 /// The state of a drive at a time, for a knot there. The acceleration is the mean over `span` [s] around it.
@@ -88,6 +89,12 @@ bool solve(CurveVariables& variables, const SampleScene& scene, const std::vecto
 }
 
 }  // namespace
+
+OptimizerOptions optimizerOptions(const PlannerOptions& options) {
+  const TermWeights weights{options.optimization_time_weight, options.optimization_limit_weight, kMarginWeight,
+                            options.optimization_push_weight, options.optimization_deviation_weight};
+  return {weights, options.optimization_iterations};
+}
 
 TrajectoryOptimizer::TrajectoryOptimizer(const OptimizerOptions& options, const Footprint& footprint, const MotionLimits& limits)
     : options_(options), footprint_(footprint), limits_(limits) {}

@@ -6,17 +6,20 @@
 
 #include "drive_generator.h"
 #include "parley_geometry/piecewise_quintic.h"
+#include "parley_planner/planner_options.h"
 #include "sample_terms.h"
 
 namespace parley {
 
 struct OptimizerOptions {
   TermWeights weights;
-  int iterations = 12;          // [-] at most
+  int iterations;               // [-] at most
   double piece_duration = 0.5;  // [s] about that of a piece at the beginning
   int most_pieces = 8;          // [-] longer drives have longer pieces
   int samples = 5;              // [-] on a piece
 };
+
+OptimizerOptions optimizerOptions(const PlannerOptions& options);
 
 /// What a drive is made better in.
 struct OptimizationTask {

@@ -27,6 +27,11 @@ class PlannerTest : public testing::Test {
     request.peers = peers_;
     return planner_.plan(request);
   }
+  /// The robot is where a trajectory says, and moves so.
+  void be(const TrajectoryPoint& state) {
+    odometry_.pose = state.pose;
+    odometry_.twist = state.twist;
+  }
   Planner planner_{PlannerOptions(), robotFootprint(), robotLimits()};
   LocalMap map_ = seenMap(World(10, 10, false));
   ObstacleScan scan_;
@@ -57,8 +62,7 @@ TEST_F(PlannerTest, KeepsWhatIsCommittedBetweenPlans) {
 TEST_F(PlannerTest, BrakesWhenTheWayIsClosed) {
   committed_ = plan(0.0).trajectory;
   const TrajectoryPoint there = committed_.at(1.0);
-  odometry_.pose = there.pose;
-  odometry_.twist = there.twist;
+  be(there);
   setCells(&map_, there.pose.x + 0.7, 0.0, there.pose.x + 0.9, 10.0, CellState::kOccupied);
   const PlanResult result = plan(1.0);
   EXPECT_TRUE(result.status.is(PlanCode::kBlocked));
@@ -67,8 +71,7 @@ TEST_F(PlannerTest, BrakesWhenTheWayIsClosed) {
   EXPECT_LT(result.trajectory.duration(), 1.1);
   // Level-triggered: asked again while still moving, it brakes again.
   committed_ = result.trajectory;
-  odometry_.pose = committed_.at(1.1).pose;
-  odometry_.twist = committed_.at(1.1).twist;
+  be(committed_.at(1.1));
   const PlanResult again = plan(1.1);
   ASSERT_FALSE(again.keep_committed);
   EXPECT_LT(again.trajectory.points()[2].twist.speed, odometry_.twist.speed);
@@ -83,8 +86,7 @@ TEST_F(PlannerTest, SaysWhatBlocks) {
   PlanResult result;
   const auto live = [&](int first, int last) {
     for (int k = first; k < last; ++k) {
-      odometry_.pose = committed_.at(0.1 * k).pose;
-      odometry_.twist = committed_.at(0.1 * k).twist;
+      be(committed_.at(0.1 * k));
       result = plan(0.1 * k);
       if (!result.keep_committed) committed_ = result.trajectory;
     }
@@ -124,8 +126,7 @@ TEST_F(PlannerTest, TellsWhichNarrowPlaceItDidNotGetThrough) {
   const auto toldWhile = [&](double from, double until) {
     std::vector<Eigen::Vector2d> told;
     for (double now = from; now < until; now += 0.1) {
-      odometry_.pose = committed_.at(now).pose;
-      odometry_.twist = committed_.at(now).twist;
+      be(committed_.at(now));
       const PlanResult result = plan(now);
       if (!result.keep_committed) committed_ = result.trajectory;
       if (!result.impassable) continue;
@@ -182,8 +183,7 @@ TEST_F(PlannerTest, WhomAStrangerLeavesNoRouteMakesRoomAfterAWhile) {
   const auto furthestIn = [this](double from, double to) {
     double furthest = 0.0;
     for (double now = from; now < to; now += 0.1) {
-      odometry_.pose = committed_.at(now).pose;
-      odometry_.twist = committed_.at(now).twist;
+      be(committed_.at(now));
       scan_.stamp = now;
       const PlanResult result = plan(now);
       if (!result.keep_committed) committed_ = result.trajectory;
@@ -212,8 +212,7 @@ TEST_F(PlannerTest, WhoWaitsForATeammateThatDoesNotMakeRoomTriesAgainFromElsewhe
       mate.heard = scan_.stamp = now;
       mate.intent = {{0.0, 9, 0}, {{4.2, 5.0}}};
       peers_ = {mate};
-      odometry_.pose = committed_.at(now).pose;
-      odometry_.twist = committed_.at(now).twist;
+      be(committed_.at(now));
       const PlanResult result = plan(now);
       has_waited = has_waited || result.status.is(PlanCode::kWaiting);
       if (!result.keep_committed) committed_ = result.trajectory;
@@ -229,8 +228,7 @@ TEST_F(PlannerTest, WhoWaitsForATeammateThatDoesNotMakeRoomTriesAgainFromElsewhe
 TEST_F(PlannerTest, WhatIsCommittedIsKeptNoFasterThanSightAllows) {
   committed_ = plan(0.0).trajectory;
   const TrajectoryPoint there = committed_.at(1.2);
-  odometry_.pose = there.pose;
-  odometry_.twist = there.twist;
+  be(there);
   Route behind_a_wall = route_;
   behind_a_wall.points = {there.pose.position(), {there.pose.x, 9.0}};
   setCells(&map_, 0.0, 5.3, 10.0, 5.4, CellState::kOccupied);
@@ -263,16 +261,14 @@ TEST_F(PlannerTest, TurnsOnTheSpotFirst) {
   EXPECT_GT(std::abs(points[10].twist.turn_rate), 1.0);
   // While it turns it is not interrupted.
   committed_ = result.trajectory;
-  odometry_.pose = committed_.at(1.0).pose;
-  odometry_.twist = committed_.at(1.0).twist;
+  be(committed_.at(1.0));
   EXPECT_TRUE(plan(1.0).keep_committed);
 }
 
 TEST_F(PlannerTest, StopsAtOnceWhenTheRouteTurnsBack) {
   committed_ = plan(0.0).trajectory;
   const TrajectoryPoint there = committed_.at(1.0);
-  odometry_.pose = there.pose;
-  odometry_.twist = there.twist;
+  be(there);
   goal_ = {1.0, 5.0};
   route_.points = {there.pose.position(), goal_};
   const PlanResult result = plan(1.0);
@@ -293,8 +289,7 @@ TEST_F(PlannerTest, StopsOnWhatIsCommittedWhenTheRouteTurnsBack) {
   }
   committed_ = SampledTrajectory(points);
   const TrajectoryPoint there = committed_.at(1.0);
-  odometry_.pose = there.pose;
-  odometry_.twist = there.twist;
+  be(there);
   goal_ = {1.0, 4.0};
   route_.points = {there.pose.position(), goal_};
   const PlanResult result = plan(1.0);

@@ -31,7 +31,9 @@ using Nodes = std::map<std::string, std::vector<Node>>;  // each robot's by trav
 Pose2 poseOf(const Node& node) { return {node.pose[0], node.pose[1], wrapAngle(node.pose[2])}; }
 
 void place(Node& node, const Pose2& pose) {
-  std::copy_n(std::array{pose.x, pose.y, pose.yaw}.begin(), 3, node.pose);
+  node.pose[0] = pose.x;
+  node.pose[1] = pose.y;
+  node.pose[2] = pose.yaw;
   node.placed = true;
 }
 
