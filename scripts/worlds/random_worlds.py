@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Worlds of 40 x 40 m that nobody drew, for eight robots that cross: `make_worlds FOLDER --random N`.
 
-aisles: a solid middle with three to five aisles through it, others that are dead ends, niches and cross ways
+aisles: a solid middle with three to five aisles through it, others that are dead ends, and cross ways
 rooms:  walls that split the middle again and again, with doors of 1.1 to 2 m and boxes
 blocks: rows of blocks with streets of 1.2 to 2 m between them
 """

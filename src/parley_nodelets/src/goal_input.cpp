@@ -81,7 +81,7 @@ void GoalInput::Parts::order(const std::optional<Eigen::Vector2d>& goal) {
   waits_since.reset();
 }
 
-/// Whether a goal without a place in the local frame is to be kept for now.
+/// Whether a goal that the local frame does not have yet is still waited for: no longer than `kLongestWait`.
 bool GoalInput::Parts::waits(double now) {
   if (!waits_since || now < *waits_since) waits_since = now;
   return now - *waits_since <= kLongestWait;
