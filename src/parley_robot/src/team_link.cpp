@@ -267,7 +267,9 @@ MapChanges TeamLink::drawMaps(const Pose2& T_odom_base, double now) {
     const int revision = exchange_.mapRevision(id);
     if (revision == drawn.revision && *hard == drawn.hard && !moved) continue;
     if (drawn.revision >= 0 && now < drawn.at + kMapPeriod) continue;
-    drawn = {revision, T, *hard, now, std::move(drawn.contested)};
+    // New outlines come where the old ones lie: a map that shakes with each measurement is worked out anew each time.
+    const Pose2 place = moved || drawn.revision < 0 ? T : drawn.T_odom_peer;
+    drawn = {revision, place, *hard, now, std::move(drawn.contested)};
     changes.drawn.push_back(layerOf(id, now));
   }
   changes.refuted = std::exchange(refuted_, {});

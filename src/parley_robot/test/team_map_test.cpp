@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <functional>
+#include <set>
 
 #include "meeting.h"
 
@@ -43,11 +44,8 @@ void runUntilArrived(Meeting& meeting, const Robot& robot, double seconds, const
   } while (meeting.time() < end && robot.output.state != DriveState::kArrived);
 }
 
-/// How far bob goes into the dead end on his way past it, after ann has come out of it and has met him. [m]
-double depthOfBobsVisit(Variant variant) {
-  Meeting meeting(deadEnd());
-  Robot& ann = meeting.add("ann", {16.5, 7.0, 3.1}, 0.0, variant);
-  Robot& bob = meeting.add("bob", {4.0, 8.5, 0.0}, 55.0, variant);
+/// Ann comes out of the dead end; she and bob get to know each other.
+void haveAnnMeetBob(Meeting& meeting, Robot& ann, Robot& bob) {
   ann.go({5.0, 6.0});
   meeting.run(7.0);
   bob.go({6.0, 8.0});
@@ -55,6 +53,14 @@ double depthOfBobsVisit(Variant variant) {
   bob.go({4.0, 9.0});
   meeting.run(4.0);
   EXPECT_TRUE(Meeting::errorOf(bob, ann, "ann"));
+}
+
+/// How far bob goes into the dead end on his way past it, after ann has come out of it and has met him. [m]
+double depthOfBobsVisit(Variant variant) {
+  Meeting meeting(deadEnd());
+  Robot& ann = meeting.add("ann", {16.5, 7.0, 3.1}, 0.0, variant);
+  Robot& bob = meeting.add("bob", {4.0, 8.5, 0.0}, 55.0, variant);
+  haveAnnMeetBob(meeting, ann, bob);
   bob.go({21.0, 7.0});
   double depth = 0.0;
   runUntilArrived(meeting, bob, 60.0, [&] {
@@ -69,6 +75,43 @@ double depthOfBobsVisit(Variant variant) {
 TEST(TeamMap, aDeadEndIsEnteredOnceForAll) {
   EXPECT_LT(depthOfBobsVisit(Variant::kFull), 1.0);
   EXPECT_GT(depthOfBobsVisit(Variant::kNoSharing), 3.0);
+}
+
+/// Corners of what a robot holds to be in the dead end, in its odom frame.
+std::set<std::pair<double, double>> cornersInDeadEnd(const Robot& robot) {
+  std::set<std::pair<double, double>> corners;
+  for (const Contour& contour : robot.stack.topology().fusedContours()) {
+    for (const Eigen::Vector2d& corner : contour.polygon) {
+      const Eigen::Vector2d place = robot.T_world_odom * corner;
+      if (place.x() > 12.0 && place.y() > 4.0 && place.y() < 10.0) corners.emplace(corner.x(), corner.y());
+    }
+  }
+  return corners;
+}
+
+TEST(TeamMap, aTeammatesMapLiesStillWhileItsPoseIsMeasuredAgainAndAgain) {
+  Meeting meeting(deadEnd());
+  Robot& ann = meeting.add("ann", {16.5, 7.0, 3.1}, 0.0);
+  Robot& bob = meeting.add("bob", {4.0, 8.5, 0.0}, 55.0);
+  Robot& cleo = meeting.add("cleo", {2.0, 2.0, 0.5}, 0.0);
+  haveAnnMeetBob(meeting, ann, bob);
+  const auto pose = [&bob] { return bob.stack.team()->teammates().at(robotIdOf("ann")).estimate.T_odom_peerodom.pose; };
+  int measured = 0, drawn_anew = 0;
+  Pose2 last = pose();
+  std::set<std::pair<double, double>> corners = cornersInDeadEnd(bob);
+  ASSERT_GT(corners.size(), 8U);
+  for (int second = 0; second < 24; ++second) {
+    ann.go({second % 8 < 4 ? 8.0 : 2.5, 3.0});
+    cleo.go({second % 6 < 3 ? 2.0 : 7.0, 1.5});  // what she measures bears on what bob knows of ann
+    meeting.run(1.0);
+    measured += !(pose() == last);
+    last = pose();
+    std::set<std::pair<double, double>> now = cornersInDeadEnd(bob);
+    drawn_anew += now != corners;
+    corners = std::move(now);
+  }
+  EXPECT_GE(measured, 4);
+  EXPECT_EQ(drawn_anew, 0);
 }
 
 TEST(TeamMap, whatAThirdSawLiesWhereItIsWithinItsDeviation) {
