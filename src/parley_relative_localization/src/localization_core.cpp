@@ -110,7 +110,7 @@ std::string RelativeLocalization::Core::whoWasAt(double stamp, const Eigen::Vect
 
 /// One global search at a time, for the peer that has waited longest.
 void RelativeLocalization::Core::searchForOne(double now) {
-  if (!options.global_search || now - last_search_ < options.search_period || !own.view().surfaces) return;
+  if (!options.global_search || now - last_search_ < options.search_period || own.view().surfaces.empty()) return;
   PeerLocalizer* chosen = nullptr;
   for (auto& entry : peers) {
     const bool is_waiting = entry.second.surfacesToSearch(own.view()) != nullptr;
@@ -119,7 +119,7 @@ void RelativeLocalization::Core::searchForOne(double now) {
   if (chosen == nullptr) return;
   last_search_ = now;
   ++counters.global_searches;
-  const auto found = searchGlobally(*own.view().surfaces, *chosen->surfacesToSearch(own.view()), options);
+  const auto found = searchGlobally(own.view().surfaces.map(), *chosen->surfacesToSearch(own.view()), options);
   chosen->setSearched(now, found ? std::optional<Pose2>(found->pose) : std::nullopt, own.view());
 }
 

@@ -52,7 +52,7 @@ void OwnRecorder::refresh() {
   if (!is_stale_) return;
   std::vector<PlacedScan> scans(keyframes_.begin(), keyframes_.end());
   if (scans.back().stamp != newest_.stamp) scans.push_back(newest_);
-  view_.surfaces = std::make_shared<SurfaceMap>(std::move(scans));
+  view_.surfaces.set(std::move(scans));
   is_stale_ = false;
 }
 

@@ -90,12 +90,12 @@ void PeerLocalizer::weigh(double now, const OwnView& own, const std::optional<Po
 }
 
 SurfaceVerdict PeerLocalizer::checkBest(const OwnView& own, RelativeLocalizationCounters& counters) {
-  if (!own.surfaces || !surfaces_) return {};
+  if (own.surfaces.empty() || !surfaces_) return {};
   for (int checked = 0; checked < kMostChecks && !hypotheses_.empty() && hypotheses_.best().fit.isMutual(2, 2); ++checked) {
     const SightFit fit = hypotheses_.best().fit;
     ++counters.matches;
     const PoseInformation pose{fit.pose.T_odom_peerodom, fit.center, fit.covariance.inverse()};
-    SurfaceVerdict verdict = checkSurfaces(*own.surfaces, *surfaces_, pose, options_);
+    SurfaceVerdict verdict = checkSurfaces(own.surfaces.map(), *surfaces_, pose, options_);
     if (hypotheses_.best().remembered) surface_contradictions_ = verdict.contradicts ? surface_contradictions_ + 1 : 0;
     if (verdict.contradicts) {
       hypotheses_.dropBest();

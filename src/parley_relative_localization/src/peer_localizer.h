@@ -17,8 +17,8 @@ namespace parley {
 /// This robot's side, as all peers are weighed against it.
 struct OwnView {
   MeetingSide side;
-  std::shared_ptr<const SurfaceMap> surfaces;  // null before the first scan
-  double travel = 0.0;                         // [m] since the start
+  OwnSurfaces surfaces;
+  double travel = 0.0;  // [m] since the start
 };
 
 /// A pose that is held, with what the odometers said when it was measured.

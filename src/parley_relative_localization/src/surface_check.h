@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
+#include <utility>
+#include <vector>
+
 #include "free_space_check.h"
 #include "parley_relative_localization/relative_localization_options.h"
 #include "scan_matcher.h"
@@ -14,6 +18,25 @@ struct SurfaceMap {
   Submap submap;
   PointIndex index;                  // of the points that have a normal
   std::vector<SurfacePoint> sample;  // some of them
+};
+
+/// Surfaces of scans of which there are new ones all the time, worked out when they are asked for.
+class OwnSurfaces {
+ public:
+  void set(std::vector<PlacedScan> scans) {
+    scans_ = std::move(scans);
+    map_.reset();
+  }
+  bool empty() const { return scans_.empty(); }
+  /// Of the scans set last.
+  const SurfaceMap& map() const {
+    if (!map_) map_ = std::make_unique<SurfaceMap>(scans_);
+    return *map_;
+  }
+
+ private:
+  std::vector<PlacedScan> scans_;
+  mutable std::unique_ptr<const SurfaceMap> map_;
 };
 
 /// What the surfaces that both robots saw say of a pose.
