@@ -12,9 +12,15 @@ constexpr double kMatchTurn = 0.7;      // [-] cosine of the angle a corner may 
 
 bool sameProvenance(const Provenance& a, const Provenance& b) { return a.origin == b.origin && a.hops == b.hops; }
 
-bool sameCorner(const Vertex& a, const Vertex& b) {
-  return a.position == b.position && a.previous == b.previous && a.next == b.next && a.direction == b.direction &&
-         a.kind == b.kind && a.at_unknown == b.at_unknown && sameProvenance(a.provenance, b.provenance);
+/// Whether what makes pairs with other corners is the same; direction and provenance may differ.
+bool seesTheSame(const Vertex& a, const Vertex& b) {
+  return a.position == b.position && a.previous == b.previous && a.next == b.next && a.kind == b.kind &&
+         a.at_unknown == b.at_unknown;
+}
+
+/// An edge is as far off as the farther of its ends.
+const Provenance& fartherOf(const Vertex& a, const Vertex& b) {
+  return a.provenance.hops >= b.provenance.hops ? a.provenance : b.provenance;
 }
 
 /// Index of the corner in `candidates` (slots, -1 for taken) that `corner` goes on from; -1 if it is new.
@@ -116,12 +122,12 @@ std::vector<int> GraphBuilder::matchCorners(TiledMap& map, const std::vector<Til
     std::vector<Vertex> moved;
     for (const Vertex& corner : found) {
       const auto same =
-          std::find_if(old.begin(), old.end(), [&](int slot) { return slot >= 0 && sameCorner(graph_.vertex(slot), corner); });
+          std::find_if(old.begin(), old.end(), [&](int slot) { return slot >= 0 && seesTheSame(graph_.vertex(slot), corner); });
       if (same == old.end()) {
         moved.push_back(corner);
         continue;
       }
-      ++graph_.vertex(*same).votes;
+      keepVertex(*same, corner);
       tile->vertices.push_back(*same);
       *same = -1;
     }
@@ -259,7 +265,7 @@ void GraphBuilder::settle(TiledMap& map, int pair) {
   edge.from = p.a;
   edge.to = p.b;
   edge.length = (b.position - a.position).norm();
-  edge.provenance = a.provenance.hops >= b.provenance.hops ? a.provenance : b.provenance;
+  edge.provenance = fartherOf(a, b);
   p.edge = graph_.addEdge(edge);
   passes_.add({pair, p.version}, a.position, b.position, [this](const Watch& w) { return isVoid(w); });
 }
@@ -278,6 +284,20 @@ void GraphBuilder::shut(TiledMap& map, int pair, const Eigen::Vector2i& blocked_
   p.blocked_at = blocked_at;
   Tile& tile = *map.find(tileOf(blocked_at.x()), tileOf(blocked_at.y()));  // only cells of tiles block
   tile.watches.add({pair, p.version}, [this](const Watch& w) { return isVoid(w); });
+}
+
+/// A corner found again; its edges stay.
+void GraphBuilder::keepVertex(int slot, const Vertex& corner) {
+  Vertex& vertex = graph_.vertex(slot);
+  ++vertex.votes;
+  vertex.direction = corner.direction;
+  if (sameProvenance(vertex.provenance, corner.provenance)) return;
+  vertex.provenance = corner.provenance;
+  for (const Watch& entry : pairs_of_[static_cast<std::size_t>(slot)].entries) {
+    if (isOfAnother(entry)) continue;
+    const Pair& pair = pairs_[static_cast<std::size_t>(entry.pair)];
+    if (pair.edge >= 0) graph_.edge(pair.edge).provenance = fartherOf(graph_.vertex(pair.a), graph_.vertex(pair.b));
+  }
 }
 
 void GraphBuilder::removeVertex(int slot) {

@@ -58,6 +58,7 @@ class GraphBuilder {
   void shut(TiledMap& map, int pair, const Eigen::Vector2i& blocked_at);
   bool isVoid(const Watch& watch) const { return pairs_[static_cast<std::size_t>(watch.pair)].version != watch.version; }
   bool isOfAnother(const Watch& entry) const { return pairs_[static_cast<std::size_t>(entry.pair)].life != entry.version; }
+  void keepVertex(int slot, const Vertex& corner);
   void removeVertex(int slot);
   void removePair(int pair);
 

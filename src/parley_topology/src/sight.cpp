@@ -50,13 +50,16 @@ Walk Sight::walk(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double from
   const double x0 = p.x() * inverse, y0 = p.y() * inverse;
   const double dx = (q.x() - p.x()) * inverse / steps, dy = (q.y() - p.y()) * inverse / steps;
   const double stride = std::max(1e-9, std::hypot(dx, dy)) * map_.resolution();
+  const double samples_per_room = 1.0 / (kFieldStretch * stride), tight = shape_.grown_radius + kFieldSlack;
   const int first = std::max(0, static_cast<int>(from * steps) - 1), last = std::min(steps, static_cast<int>(to * steps) + 2);
   for (int i = first; i <= last; ++i) {
     const int x = static_cast<int>(std::floor(x0 + i * dx)), y = static_cast<int>(std::floor(y0 + i * dy));
-    const double room = metersOf(map_.distance(x, y), shape_.reach) - shape_.grown_radius - kFieldSlack;
+    const Tile* tile = map_.find(tileOf(x), tileOf(y));
+    const std::size_t cell = offsetOf(x, y);
+    const double room = metersOf(tile ? tile->distance[cell] : kFarAway, shape_.reach) - tight;
     if (room > 0.0) {
-      i += static_cast<int>(std::min<double>(steps, room / (kFieldStretch * stride)));  // all samples up to there are wide
-    } else if (!(map_.flags(x, y) & kPassable)) {
+      i += static_cast<int>(std::min<double>(steps, room * samples_per_room));  // all samples up to there are wide
+    } else if (tile && !(tile->flags[cell] & kPassable)) {
       return {false, {x, y}};
     }
   }
