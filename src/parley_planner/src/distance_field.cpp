@@ -2,13 +2,15 @@
 #include "distance_field.h"
 
 #include <algorithm>
-#include <opencv2/imgproc.hpp>
+#include <cmath>
+
+#include "squared_distances.h"
 
 namespace parley {
 
 namespace {
 
-constexpr float kFarPixels = 1000.0F;  // where nothing is marked at all
+constexpr double kReach = 2.0;  // [m]
 
 struct Corner {
   int x, y;       // [cells] lower left of the four that surround a point
@@ -25,14 +27,15 @@ Corner cornerAt(const GridFrame& frame, const Eigen::Vector2d& p) {
 }  // namespace
 
 DistanceField::DistanceField(const GridFrame& frame, const std::vector<unsigned char>& marked) : frame_(frame) {
-  cv::Mat seeds(frame.height, frame.width, CV_8UC1);
-  std::transform(marked.begin(), marked.end(), seeds.data, [](unsigned char m) { return m ? 0 : 255; });
-  cv::Mat pixels;
-  cv::distanceTransform(seeds, pixels, cv::DIST_L2, cv::DIST_MASK_PRECISE, CV_32F);
-  const auto resolution = static_cast<float>(frame.resolution);
-  distances_.resize(marked.size());
-  std::transform(pixels.ptr<float>(), pixels.ptr<float>() + marked.size(), distances_.begin(),
-                 [resolution](float d) { return std::min(d, kFarPixels) * resolution; });
+  const int reach = std::clamp(static_cast<int>(std::ceil(kReach / frame.resolution)), 1, kMostReach);
+  std::vector<float> metres(static_cast<std::size_t>(reach * reach + 1));
+  for (std::size_t i = 0; i < metres.size(); ++i) {
+    metres[i] = std::sqrt(static_cast<float>(i)) * static_cast<float>(frame.resolution);
+  }
+  const std::vector<std::int16_t> squares = squaredDistances(marked, frame.width, frame.height, reach);
+  distances_.resize(squares.size());
+  std::transform(squares.begin(), squares.end(), distances_.begin(),
+                 [&](std::int16_t square) { return metres[static_cast<std::size_t>(square)]; });
 }
 
 double DistanceField::at(const Eigen::Vector2d& p) const {

@@ -8,7 +8,8 @@
 
 namespace parley {
 
-/// Distance from anywhere in a window to the nearest marked cell's centre, interpolated between cells.
+/// Distance from anywhere in a window to the nearest marked cell's centre, interpolated between cells, up to 2 m: what is
+/// farther is as far as that.
 class DistanceField {
  public:
   struct Sample {

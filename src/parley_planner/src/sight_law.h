@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+#include "cost_spreader.h"
 #include "fresh_pieces.h"
 #include "parley_geometry/motion.h"
 #include "reference_path.h"
@@ -79,12 +80,12 @@ class SightLaw {
   /// through is not there.
   Mask hidden(const Mask& visible) const;
   /// Driving distance from the nearest source, in units of a tenth of a cell, through cells whose price is not zero.
-  Costs spread(const Costs& sources, const Mask& prices, int most) const;
+  Costs spread(const Costs& sources, const Mask& prices, int most);
   /// How long ago what is at a place came into sight; very large where nothing is. [s]
   double ageOf(const Eigen::Vector2d& p_odom, double now) const;
   std::vector<DatedReturn> dated(const ObstacleScan& scan, const Pose2& T_odom_scan, double now) const;
   /// How far those that may be in `from` can have driven since the last time, where they are not seen now.
-  Mask driven(const Mask& from, const Mask& prices, const Mask& unseen, double elapsed) const;
+  Mask driven(const Mask& from, const Mask& prices, const Mask& unseen, double elapsed);
   /// Keeps track of where robots that have been seen may be, out of sight.
   void followLost(const std::vector<TrackedObject>& tracks, const Mask& prices, const Mask& unseen, double now);
   /// Something seen at `there` may drive off from all round it: lowers `sources` within `reach` [m].
@@ -102,6 +103,7 @@ class SightLaw {
   Mask possible_;              // cells where the middle of an unseen robot may be
   std::vector<double> dates_;  // [s] of the first return in a cell since it was last seen through; kNever if there is none
   Costs gaps_;
+  CostSpreader spreader_;
   double updated_at_ = -1e9;  // [s]
 };
 

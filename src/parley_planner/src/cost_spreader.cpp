@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cost_spreader.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+
+namespace parley {
+
+void CostSpreader::pad(const std::vector<int>& sources, const std::vector<std::uint8_t>& prices, int width, int height) {
+  const auto cells = static_cast<std::size_t>(width + 2) * static_cast<std::size_t>(height + 2);
+  costs_.assign(cells, std::numeric_limits<int>::max());
+  prices_.assign(cells, 0);
+  for (int y = 0; y < height; ++y) {
+    const std::ptrdiff_t from = static_cast<std::ptrdiff_t>(y) * width, to = static_cast<std::ptrdiff_t>(y + 1) * (width + 2) + 1;
+    std::copy_n(sources.begin() + from, width, costs_.begin() + to);
+    std::copy_n(prices.begin() + from, width, prices_.begin() + to);
+  }
+}
+
+/// Cells inside a source are surrounded by it and have nowhere to spread to: they are left out.
+void CostSpreader::fillBuckets(int width, int height, int most) {
+  if (buckets_.size() < static_cast<std::size_t>(most + 1)) buckets_.resize(static_cast<std::size_t>(most + 1));
+  for (std::vector<int>& bucket : buckets_) bucket.clear();
+  const int row = width + 2;
+  for (int y = 1; y <= height; ++y) {
+    for (int cell = y * row + 1; cell <= y * row + width; ++cell) {
+      const int* const cost = costs_.data() + cell;
+      if (*cost > most) continue;
+      const bool inner = cost[-1] <= *cost && cost[1] <= *cost && cost[-row] <= *cost && cost[row] <= *cost;
+      if (!inner) buckets_[static_cast<std::size_t>(*cost)].push_back(cell);
+    }
+  }
+}
+
+std::vector<int> CostSpreader::spread(const std::vector<int>& sources, const std::vector<std::uint8_t>& prices, int width,
+                                      int height, int most) {
+  pad(sources, prices, width, height);
+  fillBuckets(width, height, most);
+  const int row = width + 2;
+  const std::array<int, 8> neighbours{-row - 1, -row, -row + 1, -1, 1, row - 1, row, row + 1};
+  constexpr std::array<int, 8> kUnits{kDiagonal, kStraight, kDiagonal, kStraight, kStraight, kDiagonal, kStraight, kDiagonal};
+  for (int level = 0; level <= most; ++level) {
+    const std::vector<int>& bucket = buckets_[static_cast<std::size_t>(level)];
+    for (std::size_t k = 0; k < bucket.size(); ++k) {
+      const int cell = bucket[k];
+      if (costs_[static_cast<std::size_t>(cell)] != level) continue;
+      for (std::size_t i = 0; i < neighbours.size(); ++i) {
+        const auto beside = static_cast<std::size_t>(cell + neighbours[i]);
+        if (prices_[beside] == 0) continue;
+        const int next = level + prices_[beside] * kUnits[i];
+        if (next > most || next >= costs_[beside]) continue;
+        costs_[beside] = next;
+        buckets_[static_cast<std::size_t>(next)].push_back(static_cast<int>(beside));
+      }
+    }
+  }
+  std::vector<int> costs(sources.size());
+  for (int y = 0; y < height; ++y) {
+    std::copy_n(costs_.begin() + static_cast<std::ptrdiff_t>(y + 1) * row + 1, width,
+                costs.begin() + static_cast<std::ptrdiff_t>(y) * width);
+  }
+  return costs;
+}
+
+}  // namespace parley

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace parley {
+
+/// Cheapest costs from sources over a grid of eight neighbours, by Dial's algorithm: costs are small integers. Keeps its memory
+/// from call to call.
+class CostSpreader {
+ public:
+  static constexpr int kStraight = 10;  // [-] units of cost across a cell's side
+  static constexpr int kDiagonal = 14;  // [-] and across its corner
+
+  /// Costs start at `sources` and grow by units times the price of each cell entered; cells of price zero are closed. What
+  /// comes to more than `most` units stays as in `sources`. Grids are width times height, row by row.
+  std::vector<int> spread(const std::vector<int>& sources, const std::vector<std::uint8_t>& prices, int width, int height,
+                          int most);
+
+ private:
+  void pad(const std::vector<int>& sources, const std::vector<std::uint8_t>& prices, int width, int height);
+  void fillBuckets(int width, int height, int most);
+
+  // With a rim one cell wide, whose price is zero.
+  std::vector<int> costs_;
+  std::vector<std::uint8_t> prices_;
+  std::vector<std::vector<int>> buckets_;  // cells by cost
+};
+
+}  // namespace parley
