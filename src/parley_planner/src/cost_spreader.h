@@ -17,15 +17,25 @@ class CostSpreader {
   /// comes to more than `most` units stays as in `sources`. Grids are width times height, row by row.
   std::vector<int> spread(const std::vector<int>& sources, const std::vector<std::uint8_t>& prices, int width, int height,
                           int most);
+  /// The least of costs that `spread` gave when the last part of a way to a cell, as much as makes half of its cost, costs what
+  /// it is long, whatever its price.
+  std::vector<int> halfPriced(const std::vector<int>& costs, const std::vector<std::uint8_t>& prices, int width, int height,
+                              int most);
 
  private:
+  struct Label {
+    int cell, unpriced;
+  };
   void pad(const std::vector<int>& sources, const std::vector<std::uint8_t>& prices, int width, int height);
+  std::vector<int> unpadded(int width, int height) const;
   void fillBuckets(int width, int height, int most);
 
   // With a rim one cell wide, whose price is zero.
   std::vector<int> costs_;
   std::vector<std::uint8_t> prices_;
-  std::vector<std::vector<int>> buckets_;  // cells by cost
+  std::vector<std::vector<int>> buckets_;   // cells by cost
+  std::vector<std::vector<Label>> labels_;  // by cost
+  std::vector<int> least_unpriced_;         // of a cell's labels so far
 };
 
 }  // namespace parley

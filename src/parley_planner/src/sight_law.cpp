@@ -208,6 +208,9 @@ void SightLaw::observe(const Surroundings& surroundings, const ObstacleScan& sca
     // What is hidden does not drive at the robot: this one has all of the gap to stop in, not half.
     const int contact = cost(options_.contact_distance);
     for (int& gap : gaps_) gap = std::min(2 * kFar, gap + std::max(0, gap - contact));
+  } else {
+    // The robot drives its own half of the gap, off the middle of the way or not.
+    gaps_ = spreader_.halfPriced(gaps_, prices, frame_.width, frame_.height, kFar);
   }
   const std::vector<DatedReturn> returns = dated(scan, T_odom_scan, now);
   addSeen(tracks, returns, prices, pose, now);

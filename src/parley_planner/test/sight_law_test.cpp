@@ -73,6 +73,19 @@ TEST_F(SightLawTest, InANarrowCorridorAnIntruderDrivesInItsMiddleAtFullSpeed) {
   }
 }
 
+TEST_F(SightLawTest, WhoItselfIsOffTheMiddleHasNoMoreRoomForIt) {
+  // A corridor, and a door from it into a room; the robot leaves the room close to the right jamb.
+  World world(10, 10, true);
+  world.fill(0, 2.0, 10, 3.5, false);
+  world.fill(3.0, 3.5, 4.4, 3.7, false);
+  world.fill(1.0, 3.7, 8.0, 8.0, false);
+  const Pose2 pose{4.2, 4.0, -2.2};
+  for (const double now : {0.0, 1.0}) look(world, pose, now);
+  const Eigen::Vector2d hidden(4.9, 2.75), past_the_jamb(4.2, 3.5);
+  ASSERT_TRUE(law_.possibleAt(hidden));
+  EXPECT_LT(law_.gapAt(pose.position()), (hidden - past_the_jamb).norm() + (past_the_jamb - pose.position()).norm() + 0.6);
+}
+
 TrackedObject walker(const Eigen::Vector2d& position, const Eigen::Vector2d& velocity) {
   TrackedObject track;
   track.id = 1;
