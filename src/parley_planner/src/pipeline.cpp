@@ -6,6 +6,7 @@
 
 #include "emergency_stop.h"
 #include "local_goal.h"
+#include "parley_geometry/timed.h"
 
 namespace parley {
 
@@ -82,6 +83,7 @@ void Planner::Pipeline::reset() {
 PlanResult Planner::Pipeline::plan(const PlanRequest& request) {
   if (!usable(request)) return keep(PlanCode::kNoPath, "inputs are not usable");
   if (request.now < planned_at_) reset();  // time went back
+  trajectory_time_ = -1.0;
   traffic_.observe(request);
   validator_.observe({request.map, traffic_.scan(), request.T_odom_scan, traffic_.tracks(), traffic_.peers(), intent_.right});
   if (!hasStrayed(request)) return planFrom(request);
@@ -320,7 +322,7 @@ FoundPath Planner::Pipeline::search(const Attempt& how, const TrajectoryPoint& s
                     routeToLocalGoal(start.pose.position()));
 }
 
-std::optional<Proposal> Planner::Pipeline::attempt(const Attempt& how, const TrajectoryPoint& start) const {
+std::optional<Proposal> Planner::Pipeline::attempt(const Attempt& how, const TrajectoryPoint& start) {
   const Surroundings& shape = how.shape != nullptr ? *how.shape : surroundings_;
   const FoundPath found = search(how, start);
   if (found.points.empty() || (how.whole && (!found.reaches || pathLength(found.points) > how.most))) return std::nullopt;
@@ -330,7 +332,7 @@ std::optional<Proposal> Planner::Pipeline::attempt(const Attempt& how, const Tra
 }
 
 /// A motion along a path, if the validator lets it pass.
-std::optional<Proposal> Planner::Pipeline::along(const Path& path, const Attempt& how, const TrajectoryPoint& start) const {
+std::optional<Proposal> Planner::Pipeline::along(const Path& path, const Attempt& how, const TrajectoryPoint& start) {
   if (pathLength(path) < kLeastPath) return std::nullopt;
   const Surroundings& shape = how.shape != nullptr ? *how.shape : surroundings_;
   const DriveScene scene{how.squeeze ? shape : surroundings_,
@@ -347,7 +349,9 @@ std::optional<Proposal> Planner::Pipeline::along(const Path& path, const Attempt
                            how.push_distance,
                            options_.sight_law ? &sight_law_ : nullptr,
                            shape.obstacles()};
-  std::optional<Proposal> proposal = how.squeeze ? manoeuvres_.squeeze(task) : manoeuvres_.propose(task);
+  std::optional<Proposal> proposal;
+  const double time = timed([&] { proposal = how.squeeze ? manoeuvres_.squeeze(task) : manoeuvres_.propose(task); });
+  trajectory_time_ = std::max(0.0, trajectory_time_) + time;
   if (!proposal) return std::nullopt;
   const Margins judged{std::max(kLeastMargin + 0.005, 0.4 * how.margins.creeping), 0.5 * how.margins.per_speed,
                        how.margins.creep_speed};

@@ -21,6 +21,8 @@ class Planner::Pipeline {
   Pipeline(const PlannerOptions& options, const Footprint& footprint, const MotionLimits& limits);
 
   PlanResult plan(const PlanRequest& request);
+  /// What the last plan took to make trajectories, by the computer's clock; negative where it made none. [s]
+  double trajectoryTime() const { return trajectory_time_; }
   void reset();
 
  private:
@@ -61,7 +63,7 @@ class Planner::Pipeline {
   PlanResult rest(const PlanRequest& request, const TrajectoryPoint& start);
   PlanResult negotiate(const PlanRequest& request, const TrajectoryPoint& start, bool committed_valid);
   std::optional<Proposal> passBy(const TrafficDecision& decision, const Path& desired, const PlanRequest& request,
-                                 const TrajectoryPoint& start) const;
+                                 const TrajectoryPoint& start);
   PlanResult makeRoom(const TrafficDecision& decision, const PlanRequest& request, const TrajectoryPoint& start);
   std::optional<PlanResult> makeWay(const PlanRequest& request, const TrajectoryPoint& start, const Eigen::Vector2d& back_to);
   std::optional<Proposal> escape(const TrafficDecision& decision, const PlanRequest& request, const TrajectoryPoint& start);
@@ -79,8 +81,8 @@ class Planner::Pipeline {
   std::optional<Proposal> bestProposal(const PlanRequest& request, const TrajectoryPoint& start);
   Path routeToLocalGoal(const Eigen::Vector2d& here) const;
   FoundPath search(const Attempt& how, const TrajectoryPoint& start) const;
-  std::optional<Proposal> along(const Path& path, const Attempt& how, const TrajectoryPoint& start) const;
-  std::optional<Proposal> attempt(const Attempt& how, const TrajectoryPoint& start) const;
+  std::optional<Proposal> along(const Path& path, const Attempt& how, const TrajectoryPoint& start);
+  std::optional<Proposal> attempt(const Attempt& how, const TrajectoryPoint& start);
   PlanResult commit(const Proposal& proposal, PlanCode code = PlanCode::kDriving);
   PlanResult brake(const PlanRequest& request, const TrajectoryPoint& start, PlanCode code, const std::string& why);
   PlanResult keep(PlanCode code, const std::string& why) const;
@@ -133,6 +135,7 @@ class Planner::Pipeline {
   double touched_until_ = -1e9;  // [s]
   double squeezed_at_ = -1e9;    // [s]
   bool arrived_ = false;
+  double trajectory_time_ = -1.0;  // [s] of the computer's, for making trajectories
 };
 
 }  // namespace parley

@@ -172,7 +172,7 @@ PlanResult Planner::Pipeline::negotiate(const PlanRequest& request, const Trajec
 
 /// Past those who come towards this robot, each keeping right, and round those who stand and those who go first.
 std::optional<Proposal> Planner::Pipeline::passBy(const TrafficDecision& decision, const Path& desired,
-                                                  const PlanRequest& request, const TrajectoryPoint& start) const {
+                                                  const PlanRequest& request, const TrajectoryPoint& start) {
   Blocked blocked;
   const bool keep_right = request.now > passing_off_until_;
   for (const PeerTube& tube : decision.opposite) {

@@ -30,7 +30,11 @@ Planner::~Planner() = default;
 Planner::Planner(Planner&&) noexcept = default;
 Planner& Planner::operator=(Planner&&) noexcept = default;
 
-PlanResult Planner::plan(const PlanRequest& request) { return pipeline_->plan(request); }
+PlanResult Planner::plan(const PlanRequest& request) {
+  PlanResult result = pipeline_->plan(request);
+  result.trajectory_time = pipeline_->trajectoryTime();
+  return result;
+}
 
 void Planner::reset() { pipeline_->reset(); }
 

@@ -54,6 +54,12 @@ TEST_F(PlannerTest, DrivesToTheGoal) {
   EXPECT_GT(result.speed_bound, 0.3);
 }
 
+TEST_F(PlannerTest, TellsHowLongItMadeTrajectories) {
+  EXPECT_GT(plan(0.0).trajectory_time, 0.0);
+  goal_ = odometry_.pose.position();
+  EXPECT_LT(plan(0.1).trajectory_time, 0.0);
+}
+
 TEST_F(PlannerTest, KeepsWhatIsCommittedBetweenPlans) {
   committed_ = plan(0.0).trajectory;
   EXPECT_TRUE(plan(0.02).keep_committed);

@@ -203,6 +203,7 @@ void RobotStack::planMotion(double now, StageTimes& times) {
                               at_goal};
     last_plan_ = planner_.plan(request);
   });
+  times.trajectory = last_plan_.trajectory_time;
   if (last_plan_.impassable) topology_.shutPassage(*last_plan_.impassable);
   plan_.offer(last_plan_, now, start_time);
   if (team_ && !last_plan_.intent.way.empty()) team_->setIntent(last_plan_.intent);

@@ -61,6 +61,7 @@ struct PlanResult {
   int escapes = 0;                                       // [-] escape points taken so far
   /// [m] The narrowest place of the route ahead, where it has found no way past what stands for a while.
   std::optional<Eigen::Vector2d> impassable = std::nullopt;
+  double trajectory_time = -1.0;  // [s] of the computer's, for making trajectories; negative where none was made
 };
 
 /// Turns a route into a motion that ends in a stop inside space seen free: local goal, A*, smoothing, speed profile,
