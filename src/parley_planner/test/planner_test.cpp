@@ -52,12 +52,9 @@ TEST_F(PlannerTest, DrivesToTheGoal) {
   EXPECT_NEAR(result.local_goal.x(), 7.5, 0.11);
   EXPECT_GT(result.path.size(), 10U);
   EXPECT_GT(result.speed_bound, 0.3);
-}
-
-TEST_F(PlannerTest, TellsHowLongItMadeTrajectories) {
-  EXPECT_GT(plan(0.0).trajectory_time, 0.0);
+  EXPECT_GT(result.trajectory_time, 0.0);
   goal_ = odometry_.pose.position();
-  EXPECT_LT(plan(0.1).trajectory_time, 0.0);
+  EXPECT_LT(plan(0.1).trajectory_time, 0.0);  // it makes none
 }
 
 TEST_F(PlannerTest, KeepsWhatIsCommittedBetweenPlans) {
