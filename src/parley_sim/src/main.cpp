@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <iostream>
-#include <opencv2/core/utility.hpp>
 
+#include "one_thread.h"
 #include "parley_sim/input_error.h"
 #include "parley_sim/run.h"
 
 int main(int argc, char** argv) {
   using namespace parley::sim;
-  cv::setNumThreads(1);  // pictures are small here, and runs go side by side
+  useOneThread();
   try {
     const Arguments arguments = parseArguments({argv + 1, argv + argc});
     if (arguments.help) {
