@@ -75,8 +75,11 @@ std::optional<Proposal> Manoeuvres::driveOn(const ManoeuvreTask& task, const Tra
                         start.twist.turn_rate};
   DrivenPath driven{smoothed(path, entry, task.shape, smoothing), {}, {}};
   const double start_s = driven.path.project(start.pose.position(), 0.0, 1.0);
-  if (task.sight_law && !reverse) driven.sight_bounds = task.sight_law->bounds(driven.path, start_s, start.twist.speed);
-  if (reverse) driven.sight_bounds.assign(driven.path.points().size(), options_.reverse_speed);
+  if (task.sight_law) driven.sight_bounds = task.sight_law->bounds(driven.path, start_s, start.twist.speed, reverse);
+  if (reverse) {
+    driven.sight_bounds.resize(driven.path.points().size(), options_.reverse_speed);
+    for (double& bound : driven.sight_bounds) bound = std::min(bound, options_.reverse_speed);
+  }
   driven.drive = generator_.along(driven.path, start, reverse, task.scene, task.margins, driven.sight_bounds);
   if (driven.drive.end == DriveEnd::kInfeasible) return std::nullopt;
   if (options_.trajectory_optimization && !reverse) {

@@ -214,7 +214,8 @@ void Planner::Pipeline::look(const PlanRequest& request, const TrajectoryPoint& 
     std::vector<TrackedObject> moving = traffic_.oncoming(expectedWay(request), request.now);
     moving.insert(moving.end(), traffic_.tracks().begin(), traffic_.tracks().end());
     sight_law_.observe(surroundings_, traffic_.scan(), request.T_odom_scan, moving, start.pose, request.now);
-    speed_bound_ = std::min(limits_.speed, sight_law_.speedFor(sight_law_.gapAt(start.pose.position())));
+    const bool backwards = start.twist.speed < 0.0;
+    speed_bound_ = std::min(limits_.speed, sight_law_.speedFor(sight_law_.gapAt(start.pose.position(), backwards)));
   }
   lookForRoom(start.pose.position());
   if (!route_.exists()) return;
@@ -223,7 +224,9 @@ void Planner::Pipeline::look(const PlanRequest& request, const TrajectoryPoint& 
 }
 
 /// What was committed may be faster than what has come into sight since allows.
-bool Planner::Pipeline::heedsSight(const TrajectoryPoint& start) const { return start.twist.speed < speed_bound_ + kSightSlack; }
+bool Planner::Pipeline::heedsSight(const TrajectoryPoint& start) const {
+  return std::abs(start.twist.speed) < speed_bound_ + kSightSlack;
+}
 
 PlanResult Planner::Pipeline::replan(const PlanRequest& request, const TrajectoryPoint& start, bool committed_valid) {
   planned_at_ = request.now;

@@ -14,7 +14,8 @@ constexpr double kUnit = kCell / CostSpreader::kStraight;  // [m]
 constexpr int kFar = static_cast<int>(kFarGap / kUnit);
 constexpr int kSlowPrice = 2;           // [-] times as dear off the middle of the way, where an intruder would drive slowly
 constexpr double kVisibleMargin = 0.1;  // [m] a ray must pass a place by this much
-constexpr double kWallBehind = 0.3;     // [m] behind the robot's middle nothing comes past it
+constexpr double kWallBehind = 0.3;     // [m] behind the robot's middle, as it drives, nothing comes past it
+constexpr double kWallDepth = 0.3;      // [m]
 constexpr double kWallHalfWidth = 1.2;  // [m]
 constexpr double kLeaving = 0.3;        // [m/s]
 constexpr double kNever = 1e18;         // [s]
@@ -54,7 +55,9 @@ SightLaw::SightLaw(const SightLawOptions& options, const MotionLimits& limits) :
 void SightLaw::reset() {
   possible_.clear();
   lost_.clear();
+  prices_.clear();
   gaps_.clear();
+  gaps_behind_.clear();
   dates_.clear();
   walkers_.clear();
   updated_at_ = -1e9;
@@ -161,7 +164,7 @@ SightLaw::Mask SightLaw::middleOfWays(const std::vector<float>& rooms) const {
   return middle;
 }
 
-SightLaw::Costs SightLaw::spread(const Costs& sources, const Mask& prices, int most) {
+SightLaw::Costs SightLaw::spread(const Costs& sources, const Mask& prices, int most) const {
   return spreader_.spread(sources, prices, frame_.width, frame_.height, most);
 }
 
@@ -190,59 +193,76 @@ void SightLaw::observe(const Surroundings& surroundings, const ObstacleScan& sca
   const Mask unseen = hidden(seen_through);
   possible_ = driven(possible_, prices, unseen, now - updated_at_);
   followLost(tracks, prices, unseen, now);
-  followWalkers(tracks, pose, now);
-  // How far off it is from everywhere; nothing comes through the robot from behind.
-  const Pose2 T_base_odom = pose.inverse();
-  Costs sources(possible_.size(), 2 * kFar);
-  for (std::size_t i = 0; i < sources.size(); ++i) {
-    if ((possible_[i] && middle[i]) || lost_[i]) sources[i] = 0;
+  followWalkers(tracks, now);
+  hidden_.assign(possible_.size(), 2 * kFar);
+  for (std::size_t i = 0; i < hidden_.size(); ++i) {
+    if ((possible_[i] && middle[i]) || lost_[i]) hidden_[i] = 0;
+  }
+  pose_ = pose;
+  prices_ = std::move(prices);
+  seen_ = seenFrom(tracks, dated(scan, T_odom_scan, now), now);
+  updated_at_ = now;
+  gaps_.clear();
+  gaps_behind_.clear();
+}
+
+const SightLaw::Costs& SightLaw::gaps(bool backwards) const {
+  Costs& known = backwards ? gaps_behind_ : gaps_;
+  if (known.empty() && !prices_.empty()) known = gapsAhead(backwards ? -1.0 : 1.0);
+  return known;
+}
+
+SightLaw::Costs SightLaw::gapsAhead(double direction) const {
+  Mask prices = prices_;
+  Costs hidden = hidden_, seen = seen_;
+  const Pose2 T_base_odom = pose_.inverse();
+  for (std::size_t i = 0; i < prices.size(); ++i) {
     const Eigen::Vector2i cell(static_cast<int>(i) % frame_.width, static_cast<int>(i) / frame_.width);
     const Eigen::Vector2d p_base = T_base_odom * frame_.centerOf(cell);
-    if (std::abs(p_base.y()) < kWallHalfWidth && p_base.x() < -kWallBehind && p_base.x() > -kWallBehind - 0.3) {
-      prices[i] = 0;
-      sources[i] = 2 * kFar;
-    }
+    const double behind = -direction * p_base.x() - kWallBehind;
+    if (std::abs(p_base.y()) > kWallHalfWidth || behind < 0.0 || behind > kWallDepth) continue;
+    prices[i] = 0;
+    hidden[i] = 2 * kFar;
+    if (!seen.empty()) seen[i] = 2 * kFar;
   }
-  gaps_ = spread(sources, prices, kFar);
+  Costs gaps = spread(hidden, prices, kFar);
   if (team_known_) {
     // What is hidden does not drive at the robot: this one has all of the gap to stop in, not half.
     const int contact = cost(options_.contact_distance);
-    for (int& gap : gaps_) gap = std::min(2 * kFar, gap + std::max(0, gap - contact));
+    for (int& gap : gaps) gap = std::min(2 * kFar, gap + std::max(0, gap - contact));
   } else {
     // The robot drives its own half of the gap, off the middle of the way or not.
-    gaps_ = spreader_.halfPriced(gaps_, prices, frame_.width, frame_.height, kFar);
+    gaps = spreader_.halfPriced(gaps, prices, frame_.width, frame_.height, kFar);
   }
-  const std::vector<DatedReturn> returns = dated(scan, T_odom_scan, now);
-  addSeen(tracks, returns, prices, pose, now);
-  updated_at_ = now;
+  if (seen.empty()) return gaps;
+  // What is seen is there already: that ways are narrow makes it no slower to meet.
+  std::transform(prices.begin(), prices.end(), prices.begin(), [](std::uint8_t p) { return p ? std::uint8_t{1} : p; });
+  const Costs to_seen = spread(seen, prices, kFar);
+  for (std::size_t i = 0; i < gaps.size(); ++i) gaps[i] = std::min(gaps[i], to_seen[i]);
+  return gaps;
 }
 
-/// How far off what can be seen is. It is there already: that ways are narrow makes it no slower to meet.
-void SightLaw::addSeen(const std::vector<TrackedObject>& tracks, const std::vector<DatedReturn>& returns, const Mask& prices,
-                       const Pose2& pose, double now) {
-  Costs sources(gaps_.size(), 2 * kFar);
+SightLaw::Costs SightLaw::seenFrom(const std::vector<TrackedObject>& tracks, const std::vector<DatedReturn>& returns,
+                                   double now) const {
+  Costs sources(prices_.size(), 2 * kFar);
   const std::vector<FreshPiece> fresh = freshPieces(returns, options_.intruder_length, kJump);
   const std::vector<FreshPiece> emerging = emergingPieces(returns, options_.intruder_length, kJump);
   bool any = !fresh.empty() || !emerging.empty();
   for (const TrackedObject& track : tracks) {
     const Eigen::Vector2d there = track.position + track.velocity * (now - track.stamp);
-    const Eigen::Vector2d towards = (pose.position() - there).normalized();
+    const Eigen::Vector2d towards = (pose_.position() - there).normalized();
     // What stands now may drive off the next moment: only what clearly leaves is no danger.
     const bool may_come = track.has_moved && track.velocity.dot(towards) > -kLeaving;
     if (!may_come && track.observations >= kNewTrack) continue;
-    addIntruder(there, track.radius + kTrackRim, 0.0, prices, sources);
+    addIntruder(there, track.radius + kTrackRim, 0.0, sources);
     any = true;
   }
   const auto addPieces = [&](const std::vector<FreshPiece>& pieces, double grace) {
-    for (const FreshPiece& piece : pieces) addIntruder(piece.middle, 0.5 * piece.chord + kTrackRim, grace, prices, sources);
+    for (const FreshPiece& piece : pieces) addIntruder(piece.middle, 0.5 * piece.chord + kTrackRim, grace, sources);
   };
   addPieces(fresh, 0.0);
   addPieces(emerging, kStandingGrace);
-  if (!any) return;
-  Mask even(prices.size());
-  std::transform(prices.begin(), prices.end(), even.begin(), [](std::uint8_t p) { return p ? std::uint8_t{1} : p; });
-  const Costs seen = spread(sources, even, kFar);
-  for (std::size_t i = 0; i < gaps_.size(); ++i) gaps_[i] = std::min(gaps_[i], seen[i]);
+  return any ? sources : Costs{};
 }
 
 SightLaw::Mask SightLaw::driven(const Mask& from, const Mask& prices, const Mask& unseen, double elapsed) {
@@ -301,12 +321,12 @@ std::vector<DatedReturn> SightLaw::dated(const ObstacleScan& scan, const Pose2& 
   return returns;
 }
 
-void SightLaw::addIntruder(const Eigen::Vector2d& there, double reach, double grace, const Mask& prices, Costs& sources) const {
+void SightLaw::addIntruder(const Eigen::Vector2d& there, double reach, double grace, Costs& sources) const {
   const Eigen::Vector2i low = frame_.cellOf(there - Eigen::Vector2d::Constant(reach));
   const Eigen::Vector2i high = frame_.cellOf(there + Eigen::Vector2d::Constant(reach));
   for (int y = low.y(); y <= high.y(); ++y) {
     for (int x = low.x(); x <= high.x(); ++x) {
-      if (!frame_.contains({x, y}) || prices[static_cast<std::size_t>(frame_.indexOf({x, y}))] == 0) continue;
+      if (!frame_.contains({x, y}) || prices_[static_cast<std::size_t>(frame_.indexOf({x, y}))] == 0) continue;
       const double distance = (frame_.centerOf({x, y}) - there).norm();
       if (distance > reach) continue;
       int& known = sources[static_cast<std::size_t>(frame_.indexOf({x, y}))];
@@ -321,10 +341,11 @@ double SightLaw::speedFor(double gap) const {
   return std::max(options_.least_speed, a * (std::sqrt(t * t + free / a) - t));
 }
 
-double SightLaw::gapAt(const Eigen::Vector2d& p_odom) const {
+double SightLaw::gapAt(const Eigen::Vector2d& p_odom, bool backwards) const {
   const Eigen::Vector2i cell = frame_.cellOf(p_odom);
-  if (gaps_.empty() || !frame_.contains(cell)) return 0.0;
-  return std::min(kFarGap, gaps_[static_cast<std::size_t>(frame_.indexOf(cell))] * kUnit);
+  const Costs& known = gaps(backwards);
+  if (known.empty() || !frame_.contains(cell)) return 0.0;
+  return std::min(kFarGap, known[static_cast<std::size_t>(frame_.indexOf(cell))] * kUnit);
 }
 
 bool SightLaw::possibleAt(const Eigen::Vector2d& p_odom) const {
@@ -332,11 +353,10 @@ bool SightLaw::possibleAt(const Eigen::Vector2d& p_odom) const {
   return !frame_.contains(cell) || possible_.empty() || possible_[static_cast<std::size_t>(frame_.indexOf(cell))];
 }
 
-void SightLaw::followWalkers(const std::vector<TrackedObject>& tracks, const Pose2& pose, double now) {
+void SightLaw::followWalkers(const std::vector<TrackedObject>& tracks, double now) {
   std::map<int, Walker> walkers;
   for (const TrackedObject& track : tracks) {
-    const bool behind = (pose.inverse() * track.position).x() < 0.0;
-    if (track.id < 0 || behind) continue;
+    if (track.id < 0) continue;
     Walker walker;
     if (const auto known = walkers_.find(track.id); known != walkers_.end()) walker = known->second;
     walker.position = track.position;
@@ -352,10 +372,11 @@ void SightLaw::followWalkers(const std::vector<TrackedObject>& tracks, const Pos
   walkers_ = std::move(walkers);
 }
 
-double SightLaw::speedBesideWalkers(const Eigen::Vector2d& p_odom) const {
+double SightLaw::speedBesideWalkers(const Eigen::Vector2d& p_odom, bool backwards) const {
   double bound = limits_.speed;
   const double a = limits_.acceleration, t = options_.reaction_time;
   for (const auto& [id, walker] : walkers_) {
+    if (((pose_.inverse() * walker.position).x() < 0.0) != backwards) continue;
     const Eigen::Vector2d to = p_odom - walker.position;
     const double aside = std::abs(walker.direction.x() * to.y() - walker.direction.y() * to.x());
     if (aside > walker.radius + options_.half_width + kWalkerGap) continue;
@@ -368,12 +389,12 @@ double SightLaw::speedBesideWalkers(const Eigen::Vector2d& p_odom) const {
   return bound;
 }
 
-std::vector<double> SightLaw::bounds(const ReferencePath& path, double start_s, double speed) const {
-  const double grace = options_.look_ahead_time * std::max(0.0, speed);
+std::vector<double> SightLaw::bounds(const ReferencePath& path, double start_s, double speed, bool backwards) const {
+  const double grace = options_.look_ahead_time * std::max(0.0, backwards ? -speed : speed);
   std::vector<double> bounds;
   for (const double s : path.arcLengths()) {
     const Eigen::Vector2d place = path.at(std::max(start_s, s - grace)).position;
-    bounds.push_back(std::min(speedFor(gapAt(place)), speedBesideWalkers(place)));
+    bounds.push_back(std::min(speedFor(gapAt(place, backwards)), speedBesideWalkers(place, backwards)));
   }
   return bounds;
 }

@@ -43,12 +43,14 @@ class SightLaw {
   /// possible intruder is.
   void observe(const Surroundings& surroundings, const ObstacleScan& scan, const Pose2& T_odom_scan,
                const std::vector<TrackedObject>& tracks, const Pose2& pose, double now);
-  /// [m/s] for each point of a path on which the robot is at arc length `start_s` [m], driving at `speed` [m/s].
-  std::vector<double> bounds(const ReferencePath& path, double start_s, double speed) const;
+  /// [m/s] for each point of a path on which the robot is at arc length `start_s` [m], driving at `speed` [m/s], which is
+  /// negative backwards.
+  std::vector<double> bounds(const ReferencePath& path, double start_s, double speed, bool backwards = false) const;
   /// [m/s] for a gap [m] between the middles of two robots driving at each other: both brake after the reaction time.
   double speedFor(double gap) const;
-  /// Distance [m] that an intruder must at least drive to a place; `kFarGap` where none comes near.
-  double gapAt(const Eigen::Vector2d& p_odom) const;
+  /// Distance [m] that an intruder must at least drive to a place ahead, or behind for one that drives `backwards`; `kFarGap`
+  /// where none comes near.
+  double gapAt(const Eigen::Vector2d& p_odom, bool backwards = false) const;
   bool possibleAt(const Eigen::Vector2d& p_odom) const;
 
  private:
@@ -60,9 +62,9 @@ class SightLaw {
     double radius = 0.0;                                  // [m]
     double walked = 0.0;                                  // [s] when it was last seen to move
   };
-  void followWalkers(const std::vector<TrackedObject>& tracks, const Pose2& pose, double now);
+  void followWalkers(const std::vector<TrackedObject>& tracks, double now);
   /// [m/s] at which the robot can still stop at a place before any walker that turns to it gets there.
-  double speedBesideWalkers(const Eigen::Vector2d& p_odom) const;
+  double speedBesideWalkers(const Eigen::Vector2d& p_odom, bool backwards) const;
 
   using Mask = std::vector<std::uint8_t>;
   using Costs = std::vector<int>;
@@ -80,7 +82,7 @@ class SightLaw {
   /// through is not there.
   Mask hidden(const Mask& visible) const;
   /// Driving distance from the nearest source, in units of a tenth of a cell, through cells whose price is not zero.
-  Costs spread(const Costs& sources, const Mask& prices, int most);
+  Costs spread(const Costs& sources, const Mask& prices, int most) const;
   /// How long ago what is at a place came into sight; very large where nothing is. [s]
   double ageOf(const Eigen::Vector2d& p_odom, double now) const;
   std::vector<DatedReturn> dated(const ObstacleScan& scan, const Pose2& T_odom_scan, double now) const;
@@ -88,10 +90,14 @@ class SightLaw {
   Mask driven(const Mask& from, const Mask& prices, const Mask& unseen, double elapsed);
   /// Keeps track of where robots that have been seen may be, out of sight.
   void followLost(const std::vector<TrackedObject>& tracks, const Mask& prices, const Mask& unseen, double now);
+  /// How far off what can be seen is from the places round it; empty if nothing seen may come.
+  Costs seenFrom(const std::vector<TrackedObject>& tracks, const std::vector<DatedReturn>& returns, double now) const;
   /// Something seen at `there` may drive off from all round it: lowers `sources` within `reach` [m].
-  void addSeen(const std::vector<TrackedObject>& tracks, const std::vector<DatedReturn>& returns, const Mask& prices,
-               const Pose2& pose, double now);
-  void addIntruder(const Eigen::Vector2d& there, double reach, double grace, const Mask& prices, Costs& sources) const;
+  void addIntruder(const Eigen::Vector2d& there, double reach, double grace, Costs& sources) const;
+  /// How far off the nearest possible intruder is on the way to each place; worked out when first asked for.
+  const Costs& gaps(bool backwards) const;
+  /// The same for one that drives forwards (1) or backwards (-1): nothing comes through it from behind.
+  Costs gapsAhead(double direction) const;
 
   std::map<int, Walker> walkers_;  // by track
   bool team_known_ = false;
@@ -102,8 +108,13 @@ class SightLaw {
   double lost_until_ = -1e9;   // [s] when nobody asks any more where they are
   Mask possible_;              // cells where the middle of an unseen robot may be
   std::vector<double> dates_;  // [s] of the first return in a cell since it was last seen through; kNever if there is none
-  Costs gaps_;
-  CostSpreader spreader_;
+  Pose2 pose_;                 // of the robot in odom, the last time
+  Mask prices_;                // of ways, the last time
+  Costs hidden_;               // 0 where somebody unseen may be
+  Costs seen_;                 // how far off what is in sight is
+  mutable Costs gaps_;         // of one that drives forwards; empty until asked for
+  mutable Costs gaps_behind_;  // of one that drives backwards
+  mutable CostSpreader spreader_;
   double updated_at_ = -1e9;  // [s]
 };
 

@@ -1,47 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "parley_planner/planner.h"
-
-#include <gtest/gtest.h>
-
 #include <limits>
 
 #include "parley_geometry/option_conformance.h"
-#include "scenes.h"
+#include "planner_fixture.h"
 
 namespace parley {
 namespace {
-
-/// One robot at (3, 5) in a free room of 10 x 10 m with a goal at (8, 5).
-class PlannerTest : public testing::Test {
- protected:
-  PlannerTest() {
-    route_.points = {{3.0, 5.0}, {8.0, 5.0}};
-    route_.verdict = RouteVerdict::kThroughKnown;
-    odometry_.pose = {3.0, 5.0, 0.0};
-    std::mt19937 random(1);
-    scan_ = castScan(World(10, 10, false), {3.0, 5.0, 0.0}, 0.0, 0.0, random);
-  }
-  PlanResult plan(double now) {
-    odometry_.stamp = now;
-    PlanRequest request{now, now + 0.05, odometry_, map_, scan_, odometry_.pose, tracks_, route_, goal_, 0.3, committed_};
-    request.peers = peers_;
-    return planner_.plan(request);
-  }
-  /// The robot is where a trajectory says, and moves so.
-  void be(const TrajectoryPoint& state) {
-    odometry_.pose = state.pose;
-    odometry_.twist = state.twist;
-  }
-  Planner planner_{PlannerOptions(), robotFootprint(), robotLimits()};
-  LocalMap map_ = seenMap(World(10, 10, false));
-  ObstacleScan scan_;
-  std::vector<TrackedObject> tracks_;
-  std::vector<PeerMotion> peers_;
-  Route route_;
-  Odometry odometry_;
-  Eigen::Vector2d goal_{8.0, 5.0};
-  SampledTrajectory committed_;
-};
 
 TEST_F(PlannerTest, DrivesToTheGoal) {
   const PlanResult result = plan(0.0);
@@ -176,58 +140,6 @@ TEST_F(PlannerTest, WithoutARouteWhatIsCommittedStands) {
   EXPECT_TRUE(result.keep_committed);
 }
 
-TEST_F(PlannerTest, WhomAStrangerLeavesNoRouteMakesRoomAfterAWhile) {
-  route_ = {};
-  committed_ = SampledTrajectory::standing(odometry_.pose, 0.0);
-  TrackedObject stranger;
-  stranger.position = {4.2, 5.0};
-  stranger.radius = 0.4;
-  stranger.observations = 20;
-  const auto furthestIn = [this](double from, double to) {
-    double furthest = 0.0;
-    for (double now = from; now < to; now += 0.1) {
-      be(committed_.at(now));
-      scan_.stamp = now;
-      const PlanResult result = plan(now);
-      if (!result.keep_committed) committed_ = result.trajectory;
-      furthest = std::max(furthest, (odometry_.pose.position() - Eigen::Vector2d(3.0, 5.0)).norm());
-    }
-    return furthest;
-  };
-  tracks_ = {stranger};
-  EXPECT_LT(furthestIn(0.0, 10.0), 0.01) << "what never moved does not go away for room";
-  tracks_.front().has_moved = true;
-  EXPECT_LT(furthestIn(10.0, 11.5), 0.01) << "it may go by itself";
-  EXPECT_GT(furthestIn(11.5, 25.0), 0.3);
-}
-
-TEST_F(PlannerTest, WhoWaitsForATeammateThatDoesNotMakeRoomTriesAgainFromElsewhere) {
-  for (const double wall : {0.0, 5.5}) setCells(&map_, 3.9, wall, 6.0, wall + 4.5, CellState::kOccupied);
-  committed_ = SampledTrajectory::standing(odometry_.pose, 0.0);
-  bool has_waited = false;
-  const auto furthestIn = [&](double from, double to) {
-    double furthest = 0.0;
-    for (double now = from; now < to; now += 0.1) {
-      PeerMotion mate;
-      mate.id = 9;
-      mate.footprint = robotFootprint();
-      mate.trajectory = SampledTrajectory::standing({4.2, 5.0, 0.0}, now);
-      mate.heard = scan_.stamp = now;
-      mate.intent = {{0.0, 9, 0}, {{4.2, 5.0}}};
-      peers_ = {mate};
-      be(committed_.at(now));
-      const PlanResult result = plan(now);
-      has_waited = has_waited || result.status.is(PlanCode::kWaiting);
-      if (!result.keep_committed) committed_ = result.trajectory;
-      furthest = std::max(furthest, (odometry_.pose.position() - Eigen::Vector2d(3.0, 5.0)).norm());
-    }
-    return furthest;
-  };
-  EXPECT_LT(furthestIn(0.0, 8.0), 0.1);
-  EXPECT_TRUE(has_waited);
-  EXPECT_GT(furthestIn(8.0, 20.0), 0.5);
-}
-
 TEST_F(PlannerTest, WhatIsCommittedIsKeptNoFasterThanSightAllows) {
   committed_ = plan(0.0).trajectory;
   const TrajectoryPoint there = committed_.at(1.2);
@@ -252,6 +164,34 @@ TEST_F(PlannerTest, WhatIsCommittedIsKeptNoFasterThanSightAllows) {
     EXPECT_LT(result.trajectory.duration(), 1.1);
     EXPECT_NEAR(result.trajectory.points().back().pose.y, 5.0, 0.05);
   }
+}
+
+TEST_F(PlannerTest, WhoBacksUpHeedsSightToo) {
+  std::vector<TrajectoryPoint> points{{1.0, {5.0, 5.0, 0.0}, {-0.8, 0.0}}};
+  while (points.size() < 30) {
+    TrajectoryPoint p = points.back();
+    p.time += 0.05;
+    p.pose.x -= 0.04;
+    points.push_back(p);
+  }
+  const std::vector<TrajectoryPoint> stop = brakingTrajectory(points.back(), robotLimits(), 0.05).points();
+  points.insert(points.end(), stop.begin() + 1, stop.end());
+  committed_ = SampledTrajectory(points);
+  be(committed_.at(1.2));
+  route_ = {};
+  TrackedObject first_sight;
+  first_sight.stamp = 1.2;
+  first_sight.radius = 0.3;
+  first_sight.observations = 1;
+  first_sight.position = odometry_.pose * Eigen::Vector2d(0.9, -0.8);  // it leaves this one behind
+  tracks_ = {first_sight};
+  EXPECT_TRUE(plan(1.2).keep_committed);
+  first_sight.position = odometry_.pose * Eigen::Vector2d(-0.9, -0.8);
+  tracks_ = {first_sight};
+  const PlanResult result = plan(1.3);
+  ASSERT_FALSE(result.keep_committed);
+  EXPECT_EQ(motionFlaw(result.trajectory.points(), robotLimits()), "");
+  EXPECT_LT(result.trajectory.duration(), 0.7);
 }
 
 TEST_F(PlannerTest, TurnsOnTheSpotFirst) {
@@ -327,33 +267,6 @@ TEST_F(PlannerTest, WhatIsNotDrivenIsNotToldAnyLonger) {
   EXPECT_EQ(result.trajectory.points().back().twist.speed, 0.0);
   committed_ = result.trajectory;
   EXPECT_TRUE(plan(later + 0.1).keep_committed);
-}
-
-/// A room with a corridor of 1.2 m that leads out of it.
-TEST_F(PlannerTest, WhoHasBeenDeepInACorridorGoesFirstUntilItIsOut) {
-  World world(24, 10, true);
-  world.fill(0.3, 3.0, 2.7, 7.0, false);
-  world.fill(2.5, 4.4, 23.7, 5.6, false);
-  map_ = seenMap(world);
-  goal_ = {23.0, 5.0};
-  std::mt19937 random(1);
-  double now = 0.0;
-  const auto priorityAt = [&](double x) {
-    odometry_.pose = {x, 5.0, 0.0};
-    route_.points = {{x, 5.0}, goal_};
-    scan_ = castScan(world, odometry_.pose, now, 0.0, random);
-    now += 1.0;
-    return plan(now).intent.right.priority;
-  };
-  EXPECT_EQ(priorityAt(1.5), 1.0);
-  EXPECT_EQ(priorityAt(8.0), 1.0);
-  EXPECT_EQ(priorityAt(10.5), 1.5);
-  EXPECT_EQ(priorityAt(18.5), 2.0);
-  EXPECT_EQ(priorityAt(4.0), 2.0) << "pushed back, it keeps what it has until it is out";
-  EXPECT_EQ(priorityAt(1.5), 1.0);
-  EXPECT_EQ(priorityAt(18.5), 2.0);
-  planner_.reset();
-  EXPECT_EQ(priorityAt(18.5), 1.0) << "where it came from is forgotten";
 }
 
 TEST_F(PlannerTest, BadInputIsNotDrivenOn) {

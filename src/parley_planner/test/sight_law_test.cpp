@@ -57,6 +57,22 @@ TEST_F(SightLawTest, BlindCornerIsSlower) {
   EXPECT_LT(bounds.back(), bounds.front() + 1e-9);  // what is hidden lies ahead
 }
 
+TEST_F(SightLawTest, WhoBacksTowardsABlindCornerIsAsSlow) {
+  const World world = corner();
+  const Pose2 ahead{3.6, 4.8, 0.0}, behind{3.6, 4.8, kPi};  // the corner
+  look(world, ahead, 0.0);
+  const double gap = law_.gapAt(ahead.position());
+  const ReferencePath path(resampled({{3.6, 4.8}, {5.2, 4.8}, {5.2, 9.0}}, 0.1));
+  const std::vector<double> bounds = law_.bounds(path, 0.0, 1.5);
+  law_.reset();
+  look(world, behind, 0.0);
+  EXPECT_NEAR(law_.gapAt(ahead.position(), true), gap, 0.15);
+  EXPECT_GT(law_.gapAt(ahead.position()), gap + 0.5);  // of one that drives away from it
+  const std::vector<double> backwards = law_.bounds(path, 0.0, -1.5, true);
+  ASSERT_EQ(backwards.size(), bounds.size());
+  for (std::size_t i = 0; i < bounds.size(); ++i) EXPECT_NEAR(backwards[i], bounds[i], 0.1) << i;
+}
+
 TEST_F(SightLawTest, InANarrowCorridorAnIntruderDrivesInItsMiddleAtFullSpeed) {
   // However the corridors of a crossing lie to the cells, nobody in the other one is much further off than it would be to drive.
   for (int k = 0; k < 10; ++k) {
