@@ -25,7 +25,6 @@ constexpr double kBlockedReach = 1.5;     // [m] moving things nearer than this 
 constexpr double kRouteStays = 30.0;      // [s]
 constexpr double kSoon = 0.3;             // [s]
 constexpr double kWalksThrough = 1.2;     // [s]
-constexpr double kSightSlack = 0.1;       // [m/s]
 constexpr double kLeastPath = 0.01;       // [m] less is no path
 constexpr double kOnRoute = 0.5;          // [m] further off, the local goal is not of the route
 constexpr double kSettled = 0.3;          // [s] after a trajectory's end the robot stands,
@@ -214,18 +213,13 @@ void Planner::Pipeline::look(const PlanRequest& request, const TrajectoryPoint& 
     std::vector<TrackedObject> moving = traffic_.oncoming(expectedWay(request), request.now);
     moving.insert(moving.end(), traffic_.tracks().begin(), traffic_.tracks().end());
     sight_law_.observe(surroundings_, traffic_.scan(), request.T_odom_scan, moving, start.pose, request.now);
-    const bool backwards = start.twist.speed < 0.0;
-    speed_bound_ = std::min(limits_.speed, sight_law_.speedFor(sight_law_.gapAt(start.pose.position(), backwards)));
+    const double gap = sight_law_.gapAt(start.pose.position(), start.twist.speed < 0.0);
+    speed_bound_ = std::min(limits_.speed, sight_law_.speedFor(gap));
   }
   lookForRoom(start.pose.position());
   if (!route_.exists()) return;
   local_goal_ = localGoal(route_, request.odometry.pose.position(), options_.look_ahead, request.map.frame, kWindowRim);
   watch_.update(request.odometry.pose.position(), request.now);
-}
-
-/// What was committed may be faster than what has come into sight since allows.
-bool Planner::Pipeline::heedsSight(const TrajectoryPoint& start) const {
-  return std::abs(start.twist.speed) < speed_bound_ + kSightSlack;
 }
 
 PlanResult Planner::Pipeline::replan(const PlanRequest& request, const TrajectoryPoint& start, bool committed_valid) {

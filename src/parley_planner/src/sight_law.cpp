@@ -5,6 +5,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "bearing.h"
+
 namespace parley {
 
 namespace {
@@ -29,22 +31,6 @@ constexpr double kForgetting = 0.2;     // [m/s^2]
 constexpr double kWalkerGap = 0.2;      // [m] who walks past further aside does not walk into the robot
 constexpr double kStandingGrace = 0.3;  // [m] less than on one that drives is enough on one that may start
 constexpr double kTrackRim = 0.5;       // [m] its own returns close the cells round a thing off up to here
-
-/// atan2(y, x) to 2e-8 rad, in about half the time (Abramowitz and Stegun, 4.4.49).
-double bearingOf(double x, double y) {
-  const double ax = std::abs(x), ay = std::abs(y);
-  const double most = std::max(ax, ay);
-  if (!(most > 0.0)) return 0.0;
-  const double z = std::min(ax, ay) / most, q = z * z;
-  const double series =
-      1.0 +
-      q * (-0.3333314528 +
-           q * (0.1999355085 +
-                q * (-0.1420889944 +
-                     q * (0.1065626393 + q * (-0.0752896400 + q * (0.0429096138 + q * (-0.0161657367 + q * 0.0028662257)))))));
-  const double angle = ax >= ay ? z * series : 0.5 * kPi - z * series;
-  return std::copysign(x >= 0.0 ? angle : kPi - angle, y);
-}
 
 int cost(double metres) { return static_cast<int>(std::lround(metres / kUnit)); }
 
