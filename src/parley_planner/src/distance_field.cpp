@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "squared_distances.h"
+#include "parley_geometry/squared_distances.h"
 
 namespace parley {
 

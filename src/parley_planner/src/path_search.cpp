@@ -92,6 +92,7 @@ class Search {
   Search(const Lattice& lattice, int start, int goal, double keep_discount)
       : lattice_(lattice), goal_(goal), least_cost_(static_cast<float>(keep_discount)) {
     costs_.assign(lattice.size(), kInfinity);
+    metres_.assign(lattice.size(), kInfinity);
     parents_.assign(lattice.size(), -1);
     costs_[static_cast<std::size_t>(start)] = 0.0F;
     open_.push({estimate(start), start});
@@ -149,10 +150,13 @@ class Search {
     const Eigen::Vector2i cell(node % w + dx, node / w + dy);
     if (!lattice_.frame().contains(cell)) return;
     const int next = lattice_.frame().indexOf(cell);
-    const float metre = lattice_.costAt(next);
-    if (metre < 0.0F) return;
     const float length = static_cast<float>(lattice_.frame().resolution) * (dx != 0 && dy != 0 ? 1.41421356F : 1.0F);
-    const float cost = costs_[static_cast<std::size_t>(node)] + metre * length;
+    const float so_far = costs_[static_cast<std::size_t>(node)];
+    if (so_far + least_cost_ * length >= costs_[static_cast<std::size_t>(next)]) return;
+    float& metre = metres_[static_cast<std::size_t>(next)];
+    if (metre == kInfinity) metre = lattice_.costAt(next);
+    if (metre < 0.0F) return;
+    const float cost = so_far + metre * length;
     if (cost >= costs_[static_cast<std::size_t>(next)]) return;
     costs_[static_cast<std::size_t>(next)] = cost;
     parents_[static_cast<std::size_t>(next)] = node;
@@ -165,6 +169,7 @@ class Search {
   int nearest_ = -1;
   bool reached_ = false;
   std::vector<float> costs_;
+  std::vector<float> metres_;  // costAt; kInfinity until asked for
   std::vector<int> parents_;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> open_;
 };

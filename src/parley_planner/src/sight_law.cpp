@@ -114,25 +114,26 @@ std::vector<float> SightLaw::roomsOf(const Surroundings& surroundings, double no
   const int w = frame_.width, h = frame_.height;
   cv::Mat1d dates(h, w, const_cast<double*>(dates_.data())), oldest;
   cv::erode(dates, oldest, cv::Mat());  // of a cell and its neighbours: noise scatters returns over two
-  cv::Mat1b free(h, w, 255), fresh(h, w, static_cast<std::uint8_t>(0));
+  cv::Mat1b fresh(h, w, static_cast<std::uint8_t>(0));
+  Mask stands(dates_.size(), 0);
   std::vector<float> rooms(dates_.size());
   for (int y = 0, i = 0; y < h; ++y) {
     for (int x = 0; x < w; ++x, ++i) {
       const double room = surroundings.obstacles().at(frame_.centerOf({x, y}));
       rooms[static_cast<std::size_t>(i)] = static_cast<float>(room);
       fresh(y, x) = dates(y, x) < kNever && oldest(y, x) > now - options_.proof_time;
-      if (room < 0.75 * kCell && !fresh(y, x)) free(y, x) = 0;
+      stands[static_cast<std::size_t>(i)] = room < 0.75 * kCell && !fresh(y, x);
     }
   }
   if (cv::countNonZero(fresh) == 0) return rooms;
-  cv::Mat1f without;
-  cv::distanceTransform(free, without, cv::DIST_L2, cv::DIST_MASK_PRECISE, CV_32F);
+  const DistanceField without(frame_, stands);
   const int reach = static_cast<int>(std::lround(kFreshReach / kCell));
   cv::dilate(fresh, fresh, cv::Mat(), {-1, -1}, reach);
-  for (int i = 0; i < w * h; ++i) {
-    if (fresh(i / w, i % w))
-      rooms[static_cast<std::size_t>(i)] =
-          std::max(rooms[static_cast<std::size_t>(i)], static_cast<float>(kCell) * without(i / w, i % w));
+  for (int y = 0, i = 0; y < h; ++y) {
+    for (int x = 0; x < w; ++x, ++i) {
+      float& room = rooms[static_cast<std::size_t>(i)];
+      if (fresh(y, x)) room = std::max(room, without.atCell(x, y));
+    }
   }
   return rooms;
 }

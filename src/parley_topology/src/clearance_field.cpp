@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "clearance_field.h"
 
+#include <algorithm>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
+
+#include "parley_geometry/squared_distances.h"
 
 namespace parley {
 namespace {
@@ -140,18 +144,31 @@ struct FieldImage {
   cv::Mat1b distance, wide, passable;
 };
 
+/// By square [cells^2] up to that of `reach`, the distance as a tile holds it, which is `scale` for each cell.
+std::vector<std::uint8_t> heldDistances(int reach, double scale) {
+  std::vector<std::uint8_t> held(static_cast<std::size_t>(reach * reach + 1));
+  for (std::size_t square = 0; square < held.size(); ++square) {
+    held[square] = cv::saturate_cast<std::uint8_t>(scale * std::sqrt(static_cast<double>(square)));
+  }
+  return held;
+}
+
 FieldImage measure(const TiledMap& map, const CellRect& rect, const FieldShape& shape) {
-  const double per_cell = kFarAway * map.resolution() / shape.reach;
   const int halo = static_cast<int>(std::ceil(shape.reach / map.resolution())) + 1;
-  const auto is_free = [](const Tile& tile, std::size_t i) -> std::uint8_t { return tile.flags[i] & kFused ? 0 : 255; };
-  const cv::Mat1b source = picture<std::uint8_t>(map, rect.grown(halo + 1), 255, is_free);
-  cv::Mat1f cells;
-  cv::distanceTransform(source, cells, cv::DIST_L2, cv::DIST_MASK_PRECISE, CV_32F);
+  const auto is_fused = [](const Tile& tile, std::size_t i) -> std::uint8_t { return tile.flags[i] & kFused; };
+  const CellRect around = rect.grown(halo + 1);
+  const cv::Mat1b fused = picture<std::uint8_t>(map, around, 0, is_fused);
+  const std::vector<std::int16_t> squares = squaredDistances({fused.begin(), fused.end()}, around.width(), around.height(), halo);
+  const std::vector<std::uint8_t> held = heldDistances(halo, kFarAway * map.resolution() / shape.reach);
 
   FieldImage image;
   image.rect = rect;
-  const cv::Rect inner(halo, halo, rect.width() + 2, rect.height() + 2);  // a cell more to each side, to dilate
-  cells(inner).convertTo(image.distance, CV_8U, per_cell);
+  image.distance.create(rect.height() + 2, rect.width() + 2);  // a cell more to each side, to dilate
+  for (int y = 0; y < image.distance.rows; ++y) {
+    const auto row = squares.begin() + static_cast<std::ptrdiff_t>(y + halo) * around.width() + halo;
+    std::transform(row, row + image.distance.cols, image.distance[y],
+                   [&](std::int16_t square) { return held[static_cast<std::size_t>(square)]; });
+  }
   image.wide = image.distance >= shape.grown_radius / shape.reach * kFarAway;
   cv::dilate(image.wide, image.passable, cv::getStructuringElement(cv::MORPH_RECT, {3, 3}));
   const cv::Rect core(1, 1, rect.width(), rect.height());

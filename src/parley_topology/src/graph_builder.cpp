@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "graph_builder.h"
 
+#include <array>
 #include <limits>
+#include <optional>
 
 namespace parley {
 namespace {
@@ -155,7 +157,7 @@ std::vector<int> GraphBuilder::matchCorners(TiledMap& map, const std::vector<Til
       }
       const int slot = graph_.addVertex(corner);
       if (static_cast<std::size_t>(slot) >= pairs_of_.size()) pairs_of_.emplace_back();
-      if (corner.at_unknown) at_unknown_.insert(slot);
+      if (corner.at_unknown) at_unknown_.insert(std::lower_bound(at_unknown_.begin(), at_unknown_.end(), slot), slot);
       tile->vertices.push_back(slot);
       fresh.push_back(slot);
       ++result.added;
@@ -208,21 +210,34 @@ std::vector<int> GraphBuilder::pairsNoLongerShut(TiledMap& map) {
   return freed;
 }
 
+/// What was found in the way of pairs of one corner, by bearing: it is likely to be in the way of the next one there too.
+class GraphBuilder::Shadows {
+ public:
+  std::optional<Eigen::Vector2i>& towards(const Eigen::Vector2d& ray) {
+    const double turn = ray.y() < 0.0 ? 3.0 + ray.x() : 1.0 - ray.x();  // grows with the bearing, 0 to 4
+    return cells_[std::min(cells_.size() - 1, static_cast<std::size_t>(turn * 0.25 * static_cast<double>(cells_.size())))];
+  }
+
+ private:
+  std::array<std::optional<Eigen::Vector2i>, 32> cells_;
+};
+
 /// Makes the pairs of a new corner with all others but those pending, which will make theirs with it.
 void GraphBuilder::connect(TiledMap& map, int slot, const std::vector<char>& pending) {
+  Shadows shadows;
   const Vertex& vertex = graph_.vertex(slot);
   const int x = map.cellOf(vertex.position.x()), y = map.cellOf(vertex.position.y());
   const auto length = [&](int other) { return (graph_.vertex(other).position - vertex.position).norm(); };
   for (const int other : slotsWithin(map, CellRect{x, y, x + 1, y + 1}.grown(cellsOf(options_.max_edge)))) {
-    if (!pending[static_cast<std::size_t>(other)] && length(other) <= options_.max_edge) tryPair(map, slot, other);
+    if (!pending[static_cast<std::size_t>(other)] && length(other) <= options_.max_edge) tryPair(map, slot, other, shadows);
   }
   if (!vertex.at_unknown) return;
   for (const int other : at_unknown_) {
-    if (!pending[static_cast<std::size_t>(other)] && length(other) > options_.max_edge) tryPair(map, slot, other);
+    if (!pending[static_cast<std::size_t>(other)] && length(other) > options_.max_edge) tryPair(map, slot, other, shadows);
   }
 }
 
-void GraphBuilder::tryPair(TiledMap& map, int slot, int other) {
+void GraphBuilder::tryPair(TiledMap& map, int slot, int other, Shadows& shadows) {
   const Vertex& vertex = graph_.vertex(slot);
   const Vertex& end = graph_.vertex(other);
   const Eigen::Vector2d way = end.position - vertex.position;
@@ -246,11 +261,17 @@ void GraphBuilder::tryPair(TiledMap& map, int slot, int other) {
   for (const int of : {slot, other}) {
     pairs_of_[static_cast<std::size_t>(of)].add({pair, made.life}, [this](const Watch& w) { return isOfAnother(w); });
   }
-  settle(map, pair);
+  std::optional<Eigen::Vector2i>& shadow = shadows.towards(ray);
+  if (shadow) shadow = Sight(map, options_, shape_).shutNear(vertex.position, end.position, *shadow);
+  if (shadow) {
+    shut(map, pair, *shadow);
+  } else if (!settle(map, pair)) {
+    shadow = made.blocked_at;
+  }
 }
 
-/// Walks the way of a pair without an edge: makes its edge, or sets its watch.
-void GraphBuilder::settle(TiledMap& map, int pair) {
+/// Walks the way of a pair without an edge: makes its edge, or sets its watch. Whether it is open.
+bool GraphBuilder::settle(TiledMap& map, int pair) {
   Pair& p = pairs_[static_cast<std::size_t>(pair)];
   const Sight sight(map, options_, shape_);
   const Vertex& a = graph_.vertex(p.a);
@@ -258,7 +279,7 @@ void GraphBuilder::settle(TiledMap& map, int pair) {
   const Walk walk = sight.walk(a.position, b.position);
   if (!walk.open) {
     shut(map, pair, walk.blocked_at);
-    return;
+    return false;
   }
   ++p.version;
   Edge edge;
@@ -268,6 +289,7 @@ void GraphBuilder::settle(TiledMap& map, int pair) {
   edge.provenance = fartherOf(a, b);
   p.edge = graph_.addEdge(edge);
   passes_.add({pair, p.version}, a.position, b.position, [this](const Watch& w) { return isVoid(w); });
+  return true;
 }
 
 void GraphBuilder::measureEdges(const TiledMap& map) {
@@ -306,7 +328,8 @@ void GraphBuilder::removeVertex(int slot) {
     if (!isOfAnother(entry)) removePair(entry.pair);
   }
   pairs = {};
-  at_unknown_.erase(slot);
+  const auto at_unknown = std::lower_bound(at_unknown_.begin(), at_unknown_.end(), slot);
+  if (at_unknown != at_unknown_.end() && *at_unknown == slot) at_unknown_.erase(at_unknown);
   graph_.removeVertex(slot);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <set>
 #include <vector>
 
 #include "changed_blocks.h"
@@ -51,10 +50,11 @@ class GraphBuilder {
   bool refreshPairs(TiledMap& map, const ChangedBlocks& changed);
   std::vector<int> pairsNoLongerShut(TiledMap& map);
   void connect(TiledMap& map, int slot, const std::vector<char>& pending);
-  void tryPair(TiledMap& map, int slot, int other);
+  class Shadows;
+  void tryPair(TiledMap& map, int slot, int other, Shadows& shadows);
   int cellsOf(double length) const { return static_cast<int>(std::ceil(length / options_.resolution)); }
   std::vector<int> slotsWithin(const TiledMap& map, const CellRect& cells) const;
-  void settle(TiledMap& map, int pair);
+  bool settle(TiledMap& map, int pair);
   void shut(TiledMap& map, int pair, const Eigen::Vector2i& blocked_at);
   bool isVoid(const Watch& watch) const { return pairs_[static_cast<std::size_t>(watch.pair)].version != watch.version; }
   bool isOfAnother(const Watch& entry) const { return pairs_[static_cast<std::size_t>(entry.pair)].life != entry.version; }
@@ -69,7 +69,7 @@ class GraphBuilder {
   std::vector<int> free_pairs_;
   PassIndex passes_;
   std::vector<WatchList> pairs_of_;  // by slot of a vertex, with lives
-  std::set<int> at_unknown_;         // slots of vertices at unseen space
+  std::vector<int> at_unknown_;      // slots of vertices at unseen space, in order
   int next_id_ = 0;
   bool saturated_ = false;
 };

@@ -39,31 +39,56 @@ void measureEdge(VisibilityGraph& graph, int slot, const Sight& sight) {
   edge.measured = true;
 }
 
-Walk Sight::walk(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double from, double to) const {
-  const auto [p, q] = ordered(a, b);
-  if (p != a) {
-    from = 1.0 - std::exchange(to, 1.0 - from);
+/// The samples of a straight way, in cells, from the end that comes first.
+struct Sight::Samples {
+  Samples(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double resolution) {
+    const auto [p, q] = ordered(a, b);
+    turned = p != a;
+    start = p / resolution;
+    const Eigen::Vector2d way = (q - p) / resolution;
+    count = std::max(1, static_cast<int>(std::ceil(way.norm() / kStep)));
+    step = way / count;
   }
-  const double inverse = 1.0 / map_.resolution();
-  const double length = (q - p).norm() * inverse;
-  const int steps = std::max(1, static_cast<int>(std::ceil(length / kStep)));
-  const double x0 = p.x() * inverse, y0 = p.y() * inverse;
-  const double dx = (q.x() - p.x()) * inverse / steps, dy = (q.y() - p.y()) * inverse / steps;
-  const double stride = std::max(1e-9, std::hypot(dx, dy)) * map_.resolution();
+  Eigen::Vector2i at(int i) const {
+    return {static_cast<int>(std::floor(start.x() + i * step.x())), static_cast<int>(std::floor(start.y() + i * step.y()))};
+  }
+  Eigen::Vector2d start, step;
+  int count = 0;  // after the first
+  bool turned = false;
+};
+
+Walk Sight::walk(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double from, double to) const {
+  const Samples way(a, b, map_.resolution());
+  if (way.turned) from = 1.0 - std::exchange(to, 1.0 - from);
+  const double stride = std::max(1e-9, way.step.norm()) * map_.resolution();
   const double samples_per_room = 1.0 / (kFieldStretch * stride), tight = shape_.grown_radius + kFieldSlack;
-  const int first = std::max(0, static_cast<int>(from * steps) - 1), last = std::min(steps, static_cast<int>(to * steps) + 2);
+  const int first = std::max(0, static_cast<int>(from * way.count) - 1);
+  const int last = std::min(way.count, static_cast<int>(to * way.count) + 2);
   for (int i = first; i <= last; ++i) {
-    const int x = static_cast<int>(std::floor(x0 + i * dx)), y = static_cast<int>(std::floor(y0 + i * dy));
-    const Tile* tile = map_.find(tileOf(x), tileOf(y));
-    const std::size_t cell = offsetOf(x, y);
+    const Eigen::Vector2i at = way.at(i);
+    const Tile* tile = map_.find(tileOf(at.x()), tileOf(at.y()));
+    const std::size_t cell = offsetOf(at.x(), at.y());
     const double room = metersOf(tile ? tile->distance[cell] : kFarAway, shape_.reach) - tight;
     if (room > 0.0) {
-      i += static_cast<int>(std::min<double>(steps, room * samples_per_room));  // all samples up to there are wide
+      i += static_cast<int>(std::min<double>(way.count, room * samples_per_room));  // all samples up to there are wide
     } else if (tile && !(tile->flags[cell] & kPassable)) {
-      return {false, {x, y}};
+      return {false, at};
     }
   }
   return {true, {}};
+}
+
+std::optional<Eigen::Vector2i> Sight::shutNear(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                                               const Eigen::Vector2i& cell) const {
+  const Samples way(a, b, map_.resolution());
+  const Eigen::Vector2d to = cell.cast<double>().array() + 0.5 - way.start.array();
+  const double nearest = to.dot(way.step) / std::max(1e-9, way.step.squaredNorm());
+  const int middle = static_cast<int>(std::clamp(nearest, 0.0, static_cast<double>(way.count)));
+  for (int i = middle; i <= std::min(middle + 1, way.count); ++i) {
+    const Eigen::Vector2i at = way.at(i);
+    if (!(map_.flags(at.x(), at.y()) & kPassable)) return at;
+  }
+  return std::nullopt;
 }
 
 Edge Sight::measure(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {

@@ -14,7 +14,7 @@ namespace parley {
 /// How far a straight way gets.
 struct Walk {
   bool open = false;
-  Eigen::Vector2i blocked_at = Eigen::Vector2i::Zero();  // first cell that is not passable, if not open
+  Eigen::Vector2i blocked_at = Eigen::Vector2i::Zero();  // a cell that is not passable, if not open
 };
 
 /// Tests and measures straight ways on the map. The answer for (a, b) is that for (b, a), to the last bit.
@@ -25,6 +25,9 @@ class Sight {
 
   /// Whether all cells along the way are passable; looked at are those of its part between two fractions.
   Walk walk(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double from = 0.0, double to = 1.0) const;
+
+  /// A cell that is in the way, looked for where the way comes nearest to `cell` alone. What this finds, `walk` would too.
+  std::optional<Eigen::Vector2i> shutNear(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2i& cell) const;
 
   /// Length, cost and what they are made of, for a way that is open.
   Edge measure(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
@@ -37,6 +40,7 @@ class Sight {
   std::optional<Eigen::Vector2d> nearestWith(CellFlag flag, const Eigen::Vector2d& p, double tolerance) const;
 
  private:
+  struct Samples;
   std::uint8_t flagsAt(const Eigen::Vector2d& p) const { return map_.flags(map_.cellOf(p.x()), map_.cellOf(p.y())); }
   double distanceAt(const Eigen::Vector2d& p) const {
     return metersOf(map_.distance(map_.cellOf(p.x()), map_.cellOf(p.y())), shape_.reach);

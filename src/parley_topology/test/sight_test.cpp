@@ -8,6 +8,8 @@
 namespace parley {
 namespace {
 
+double at(std::mt19937& random) { return std::uniform_real_distribution<double>(-3.0, 9.0)(random); }
+
 class Place {
  public:
   void box(double x0, double y0, double x1, double y1, std::uint8_t bits = kSeen | kOwn) {
@@ -20,6 +22,12 @@ class Place {
       }
     }
     refreshField(map, shape);
+  }
+  void strew(std::mt19937& random) {
+    for (int k = 0; k < 12; ++k) {
+      const double x = at(random), y = at(random);
+      box(x, y, x + 0.3, y + 0.6);
+    }
   }
   TopologyOptions options;
   FieldShape shape{0.22, 1.0, 0.1};
@@ -42,11 +50,7 @@ TEST(Sight, aWallBlocks) {
 TEST(Sight, isTheSameBothWays) {
   Place place;
   std::mt19937 random(5);
-  std::uniform_real_distribution<double> at(-3.0, 9.0);
-  for (int k = 0; k < 12; ++k) {
-    const double x = at(random), y = at(random);
-    place.box(x, y, x + 0.3, y + 0.6);
-  }
+  place.strew(random);
   for (int k = 0; k < 500; ++k) {
     const Eigen::Vector2d a(at(random), at(random)), b(at(random), at(random));
     EXPECT_EQ(place.sight.walk(a, b).open, place.sight.walk(b, a).open);
@@ -54,6 +58,29 @@ TEST(Sight, isTheSameBothWays) {
     EXPECT_EQ(there.cost, back.cost);
     EXPECT_EQ(there.clearance, back.clearance);
   }
+}
+
+TEST(Sight, whatIsFoundNearACellIsInTheWay) {
+  Place place;
+  std::mt19937 random(6);
+  place.strew(random);
+  int shut = 0, found = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const Eigen::Vector2d a(at(random), at(random)), b(at(random), at(random));
+    const Eigen::Vector2i anywhere(place.map.cellOf(at(random)), place.map.cellOf(at(random)));
+    const Walk walk = place.sight.walk(a, b);
+    if (const auto cell = place.sight.shutNear(a, b, anywhere)) {
+      ++found;
+      EXPECT_FALSE(walk.open);
+      EXPECT_FALSE(place.map.flags(cell->x(), cell->y()) & kPassable);
+    }
+    if (walk.open) continue;
+    ++shut;
+    EXPECT_TRUE(place.sight.shutNear(a, b, walk.blocked_at));
+    EXPECT_TRUE(place.sight.shutNear(b, a, walk.blocked_at));
+  }
+  EXPECT_GT(shut, 500);
+  EXPECT_GT(found, 50);
 }
 
 TEST(Sight, clearanceIsTheWidthOfThePassage) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "squared_distances.h"
+#include "parley_geometry/squared_distances.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -11,6 +11,7 @@ namespace {
 
 using Lanes = cv::v_int16x8;
 constexpr int kLanes = Lanes::nlanes;
+constexpr int kBetweenChecks = 4;  // steps, for which it is not asked whether they are still worth it
 
 Lanes all(int value) { return cv::v_setall_s16(static_cast<short>(value)); }
 
@@ -47,9 +48,12 @@ void measureColumns(PaddedGrid& grid, int width, int height, int reach) {
 /// The least, over the cells of a row that are less than `reach` away, of their value and the square of the way there.
 Lanes leastAround(const short* at, int reach) {
   Lanes least = cv::v_load(at);
-  for (int k = 1; k < reach; ++k) {
-    const Lanes beside = cv::v_min(cv::v_load(at - k), cv::v_load(at + k));
-    least = cv::v_min(least, cv::v_add_wrap(beside, all(k * k)));
+  for (int k = 1; k < reach;) {
+    if (!cv::v_check_any(least > all(k * k))) break;  // nothing further off lowers any of them
+    for (const int last = std::min(k + kBetweenChecks, reach); k < last; ++k) {
+      const Lanes beside = cv::v_min(cv::v_load(at - k), cv::v_load(at + k));
+      least = cv::v_min(least, cv::v_add_wrap(beside, all(k * k)));
+    }
   }
   return least;
 }
