@@ -11,13 +11,12 @@ import yaml
 ROOT = Path(__file__).resolve().parents[2]
 
 
-def find_fleet_run():
-    """The newest built fleet_run; exits with a hint if there is none."""
-    found = [p for p in ROOT.glob("*/lib/parley_sim/fleet_run") if p.is_file()]
-    found += [p for p in ROOT.glob("*/devel/lib/parley_sim/fleet_run") if p.is_file()]
-    if not found:
-        sys.exit("no fleet_run found: build first (scripts/build)")
-    return max(found, key=lambda p: p.stat().st_mtime)
+def built_fleet_run():
+    """The runner as the sources have it, built if it is not up to date; exits if that fails."""
+    built = subprocess.run([ROOT / "scripts/build", "--target", "fleet_run"], stdout=sys.stderr)
+    if built.returncode != 0:
+        sys.exit("fleet_run could not be built (scripts/setup installs what that needs)")
+    return ROOT / "build/release/devel/lib/parley_sim/fleet_run"
 
 
 def subset(scenario_path, names):

@@ -108,6 +108,7 @@ PlanResult Planner::Pipeline::planFrom(const PlanRequest& request) {
   if (isTouched(request)) return standStill(request, start, PlanCode::kBlocked, "somebody walks into the robot");
   const bool busy =
       valid && !request.committed.empty() && request.start_time < std::min(busy_until_, request.committed.endTime());
+  if (busy && backsTooFast(request, start)) return brake(request, start, PlanCode::kBlocked, "something may come from behind");
   if (busy) return keep(code_, "");
   if (way_out_ && !traffic_.isShutIn(request.now, start.pose.position())) way_out_.reset();
   if (way_out_) return leave(request, start, valid);
@@ -131,6 +132,13 @@ PlanResult Planner::Pipeline::planFrom(const PlanRequest& request) {
   }
   if (valid && (mayKeep(request) || endsAtGoal(request))) return keep(code_, "");
   return replan(request, start, valid);
+}
+
+/// A manoeuvre is not planned anew while it lasts, but what has come into sight since it was begun may be faster.
+bool Planner::Pipeline::backsTooFast(const PlanRequest& request, const TrajectoryPoint& start) {
+  if (start.twist.speed >= 0.0) return false;
+  look(request, start);
+  return !heedsSight(start);
 }
 
 /// Who walks into a standing robot does it no harm, but would if it drove on. It may get out of the lidar's sight doing so.
@@ -353,38 +361,6 @@ std::optional<Proposal> Planner::Pipeline::along(const Path& path, const Attempt
   const Margins judged{std::max(kLeastMargin + 0.005, 0.4 * how.margins.creeping), 0.5 * how.margins.per_speed,
                        how.margins.creep_speed};
   return validator_.check(proposal->trajectory, start, judged).good() ? proposal : std::nullopt;
-}
-
-PlanResult Planner::Pipeline::commit(const Proposal& proposal, PlanCode code) {
-  code_ = code;
-  path_ = proposal.path;
-  busy_until_ = proposal.busy_until;
-  PlanResult result = keep(code, code == PlanCode::kDriving ? "" : "another goes first");
-  result.keep_committed = false;
-  result.trajectory = proposal.trajectory;
-  return result;
-}
-
-PlanResult Planner::Pipeline::brake(const PlanRequest& request, const TrajectoryPoint& start, PlanCode code,
-                                    const std::string& why) {
-  busy_until_ = -1e9;
-  PlanResult result = keep(code, why);
-  result.keep_committed = false;
-  result.trajectory = safestStop(validator_, request.committed, start, limits_, options_.time_step);
-  return result;
-}
-
-PlanResult Planner::Pipeline::keep(PlanCode code, const std::string& why) const {
-  PlanResult result;
-  result.status = {code, why};
-  result.keep_committed = true;
-  result.local_goal = local_goal_;
-  result.path = path_;
-  result.speed_bound = speed_bound_;
-  result.intent = intent_;
-  result.escape = escape_;
-  result.escapes = escapes_;
-  return result;
 }
 
 bool Planner::Pipeline::somethingMoved(const PlanRequest& request) const {

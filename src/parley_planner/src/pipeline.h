@@ -50,6 +50,7 @@ class Planner::Pipeline {
   void look(const PlanRequest& request, const TrajectoryPoint& start);
   /// What was committed may be faster than what has come into sight since allows.
   bool heedsSight(const TrajectoryPoint& start) const { return std::abs(start.twist.speed) < speed_bound_ + kSightSlack; }
+  static constexpr double kSightSlack = 0.1;  // [m/s]
   PlanResult replan(const PlanRequest& request, const TrajectoryPoint& start, bool committed_valid);
   PlanResult decided(const PlanRequest& request, const TrajectoryPoint& start, const std::optional<Proposal>& proposal,
                      bool committed_valid);
@@ -76,6 +77,7 @@ class Planner::Pipeline {
   void outwait(const PlanRequest& request, const TrajectoryPoint& start);
   void backOffFrom(const Eigen::Vector2d& other, const PlanRequest& request, const TrajectoryPoint& start);
   PlanResult standStill(const PlanRequest& request, const TrajectoryPoint& start, PlanCode code, const std::string& why);
+  bool backsTooFast(const PlanRequest& request, const TrajectoryPoint& start);
   bool isTouched(const PlanRequest& request);
   void lookForRoom(const Eigen::Vector2d& here);
   void tell(const RightOfWay& right, const Path& way);
@@ -124,18 +126,17 @@ class Planner::Pipeline {
   PlanCode code_ = PlanCode::kDriving;  // of what was committed last
   Eigen::Vector2d goal_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d local_goal_ = Eigen::Vector2d::Zero();
-  Path desired_;                              // [m] where it would have gone at the last plan, if it were alone
-  double desired_at_ = -1e9;                  // [s]
-  Route route_;                               // the last one there was
-  double routed_at_ = -1e9;                   // [s]
-  Path path_;                                 // that the last commitment follows
-  SampledTrajectory committed_;               // as the plan found it
-  static constexpr double kSightSlack = 0.1;  // [m/s]
-  double speed_bound_ = 0.0;                  // [m/s] by sight, where the robot is
-  double planned_at_ = -1e9;                  // [s]
-  double busy_until_ = -1e9;                  // [s]
-  double touched_until_ = -1e9;               // [s]
-  double squeezed_at_ = -1e9;                 // [s]
+  Path desired_;                 // [m] where it would have gone at the last plan, if it were alone
+  double desired_at_ = -1e9;     // [s]
+  Route route_;                  // the last one there was
+  double routed_at_ = -1e9;      // [s]
+  Path path_;                    // that the last commitment follows
+  SampledTrajectory committed_;  // as the plan found it
+  double speed_bound_ = 0.0;     // [m/s] by sight, where the robot is
+  double planned_at_ = -1e9;     // [s]
+  double busy_until_ = -1e9;     // [s]
+  double touched_until_ = -1e9;  // [s]
+  double squeezed_at_ = -1e9;    // [s]
   bool arrived_ = false;
   double trajectory_time_ = -1.0;  // [s] of the computer's, for making trajectories
 };

@@ -12,7 +12,7 @@ constexpr int kDirections = 180;       // [-] bins of the histograms
 constexpr std::size_t kRotations = 6;  // [-]
 constexpr double kCell = 0.2;          // [m]
 constexpr double kReach = 7.6;         // [m] how far the peer may be
-constexpr std::size_t kProbes = 100;   // [-] points placed on the grid
+constexpr std::size_t kProbes = 100;   // [-] of the peer's points are tried
 constexpr double kLeastHits = 0.25;    // [-]
 constexpr std::size_t kPlaces = 16;    // [-] that are refined a little
 constexpr std::size_t kModes = 6;      // [-] that are refined to the end
@@ -97,10 +97,9 @@ void keepBest(std::vector<Place>& places, std::size_t count) {
 }
 
 /// Places on the grid with many hits, as poses of the peer's odom frame.
-std::vector<Place> placesOf(const SurfaceMap& own, const SurfaceMap& peer, const Eigen::Vector2d& here,
-                            const Eigen::Vector2d& there) {
+std::vector<Place> placesOf(const SurfaceMap& own, const SurfaceMap& peer, const std::vector<SurfacePoint>& points,
+                            const Eigen::Vector2d& here, const Eigen::Vector2d& there) {
   const PooledGrid grid(own.index.points(), here);
-  const std::vector<SurfacePoint> points = peer.submap.sample(kProbes);
   std::vector<Place> places;
   const int reach = static_cast<int>(kReach / kCell);
   for (const double rotation : rotationsOf(normalsOf(own.index.points()), normalsOf(peer.index.points()))) {
@@ -128,12 +127,11 @@ bool isSameMode(const Pose2& a, const Pose2& b, const Eigen::Vector2d& there) {
 }
 
 /// Refines and scores; keeps one of those that came to the same pose.
-std::vector<Place> refined(const SurfaceMap& own, const SurfaceMap& peer, const std::vector<Place>& places,
-                           const Eigen::Vector2d& there, int iterations, std::size_t votes) {
+std::vector<Place> refined(const SurfaceMap& own, const SurfaceMap& peer, const std::vector<SurfacePoint>& points,
+                           const std::vector<Place>& places, const Eigen::Vector2d& there, int iterations, std::size_t votes) {
   std::vector<Place> modes;
   for (const Place& place : places) {
-    const ScanMatch match =
-        refineMatch(own.index, peer.submap.sample(kProbes), unobserved(place.pose, place.pose * there), iterations);
+    const ScanMatch match = refineMatch(own.index, points, unobserved(place.pose, place.pose * there), iterations);
     if (!match.converged) continue;
     const Pose2& pose = match.estimate.pose;
     const auto is_same = [&](const Place& other) { return isSameMode(other.pose, pose, there); };
@@ -163,9 +161,10 @@ std::optional<PoseInformation> searchGlobally(const SurfaceMap& own, const Surfa
   if (own.sample.empty() || peer.sample.empty()) return std::nullopt;
   const Eigen::Vector2d here = own.submap.scans().back().T_odom_scan.position();
   const Eigen::Vector2d there = peer.submap.scans().back().T_odom_scan.position();
-  std::vector<Place> modes = refined(own, peer, thinned(placesOf(own, peer, here, there), there), there, 4, 60);
+  const std::vector<SurfacePoint> points = peer.submap.sample(kProbes);
+  std::vector<Place> modes = refined(own, peer, points, thinned(placesOf(own, peer, points, here, there), there), there, 4, 60);
   keepBest(modes, kModes);
-  modes = refined(own, peer, modes, there, 12, 240);
+  modes = refined(own, peer, points, modes, there, 12, 240);
   keepBest(modes, kModes);
   if (modes.empty()) return std::nullopt;
   const Pose2& best = modes.front().pose;

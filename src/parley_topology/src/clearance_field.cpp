@@ -144,22 +144,25 @@ struct FieldImage {
   cv::Mat1b distance, wide, passable;
 };
 
-/// By square [cells^2] up to that of `reach`, the distance as a tile holds it, which is `scale` for each cell.
+/// By square [cells^2] up to that of `reach`, which is far away, the distance as a tile holds it, `scale` for each cell.
 std::vector<std::uint8_t> heldDistances(int reach, double scale) {
   std::vector<std::uint8_t> held(static_cast<std::size_t>(reach * reach + 1));
   for (std::size_t square = 0; square < held.size(); ++square) {
     held[square] = cv::saturate_cast<std::uint8_t>(scale * std::sqrt(static_cast<double>(square)));
   }
+  held.back() = kFarAway;
   return held;
 }
 
 FieldImage measure(const TiledMap& map, const CellRect& rect, const FieldShape& shape) {
   const int halo = static_cast<int>(std::ceil(shape.reach / map.resolution())) + 1;
+  const int reach = std::min(halo, kMostReach);
   const auto is_fused = [](const Tile& tile, std::size_t i) -> std::uint8_t { return tile.flags[i] & kFused; };
   const CellRect around = rect.grown(halo + 1);
   const cv::Mat1b fused = picture<std::uint8_t>(map, around, 0, is_fused);
-  const std::vector<std::int16_t> squares = squaredDistances({fused.begin(), fused.end()}, around.width(), around.height(), halo);
-  const std::vector<std::uint8_t> held = heldDistances(halo, kFarAway * map.resolution() / shape.reach);
+  const std::vector<std::int16_t> squares =
+      squaredDistances({fused.begin(), fused.end()}, around.width(), around.height(), reach);
+  const std::vector<std::uint8_t> held = heldDistances(reach, kFarAway * map.resolution() / shape.reach);
 
   FieldImage image;
   image.rect = rect;
