@@ -108,7 +108,6 @@ PlanResult Planner::Pipeline::planFrom(const PlanRequest& request) {
   if (isTouched(request)) return standStill(request, start, PlanCode::kBlocked, "somebody walks into the robot");
   const bool busy =
       valid && !request.committed.empty() && request.start_time < std::min(busy_until_, request.committed.endTime());
-  if (busy && backsTooFast(request, start)) return brake(request, start, PlanCode::kBlocked, "something may come from behind");
   if (busy) return keep(code_, "");
   if (way_out_ && !traffic_.isShutIn(request.now, start.pose.position())) way_out_.reset();
   if (way_out_) return leave(request, start, valid);
@@ -132,13 +131,6 @@ PlanResult Planner::Pipeline::planFrom(const PlanRequest& request) {
   }
   if (valid && (mayKeep(request) || endsAtGoal(request))) return keep(code_, "");
   return replan(request, start, valid);
-}
-
-/// A manoeuvre is not planned anew while it lasts, but what has come into sight since it was begun may be faster.
-bool Planner::Pipeline::backsTooFast(const PlanRequest& request, const TrajectoryPoint& start) {
-  if (start.twist.speed >= 0.0) return false;
-  look(request, start);
-  return !heedsSight(start);
 }
 
 /// Who walks into a standing robot does it no harm, but would if it drove on. It may get out of the lidar's sight doing so.

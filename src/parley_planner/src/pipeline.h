@@ -77,7 +77,6 @@ class Planner::Pipeline {
   void outwait(const PlanRequest& request, const TrajectoryPoint& start);
   void backOffFrom(const Eigen::Vector2d& other, const PlanRequest& request, const TrajectoryPoint& start);
   PlanResult standStill(const PlanRequest& request, const TrajectoryPoint& start, PlanCode code, const std::string& why);
-  bool backsTooFast(const PlanRequest& request, const TrajectoryPoint& start);
   bool isTouched(const PlanRequest& request);
   void lookForRoom(const Eigen::Vector2d& here);
   void tell(const RightOfWay& right, const Path& way);

@@ -194,31 +194,6 @@ TEST_F(PlannerTest, WhoBacksUpHeedsSightToo) {
   EXPECT_LT(result.trajectory.duration(), 0.7);
 }
 
-TEST_F(PlannerTest, BackingOutOfADeadEndIsStoppedByWhatComesIntoSight) {
-  for (const double y : {4.5, 5.4}) setCells(&map_, 2.0, y, 6.0, y + 0.1, CellState::kOccupied);
-  setCells(&map_, 6.0, 4.5, 6.1, 5.5, CellState::kOccupied);
-  odometry_.pose = {4.0, 5.0, 0.0};
-  goal_ = {0.6, 5.0};
-  route_.points = {{4.0, 5.0}, goal_};
-  committed_ = plan(0.0).trajectory;
-  double now = 0.1;
-  while (now < committed_.endTime() && committed_.at(now).pose.x > 2.35) now += 0.05;
-  ASSERT_LT(committed_.at(now).twist.speed, -0.7);
-  be(committed_.at(now));
-  PlanResult result = plan(now);
-  EXPECT_TRUE(result.keep_committed);
-  TrackedObject first_sight;  // beside the mouth
-  first_sight.stamp = now;
-  first_sight.radius = 0.3;
-  first_sight.observations = 1;
-  first_sight.position = {1.6, 4.2};
-  tracks_ = {first_sight};
-  result = plan(now);
-  ASSERT_FALSE(result.keep_committed);
-  EXPECT_EQ(result.status.text, "something may come from behind");
-  EXPECT_LT(result.trajectory.duration(), 0.7);
-}
-
 TEST_F(PlannerTest, TurnsOnTheSpotFirst) {
   odometry_.pose.yaw = 2.8;
   const PlanResult result = plan(0.0);
