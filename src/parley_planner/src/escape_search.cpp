@@ -21,6 +21,7 @@ constexpr double kProgressWeight = 0.3;  // [-] of the way from there on
 constexpr double kAgainstWeight = 3.0;   // [-] a metre towards whom one makes room for
 constexpr double kBodyGap = 0.1;         // [m] round standing robots
 constexpr double kPushWeight = 4.0;      // [-] a metre through a robot that will make room
+constexpr double kFurtherOn = 0.3;       // [m]
 constexpr double kStartRelief = 0.4;     // [m]
 constexpr double kKeepBonus = 1.0;       // [m] of way that the last escape point is better than others
 constexpr double kKeepReach = 0.3;       // [m]
@@ -43,8 +44,11 @@ class EscapeSearch {
     costs_.assign(size, kInfinity);
     parents_.assign(size, -1);
     metres_.assign(size, std::numeric_limits<float>::quiet_NaN());
-    for (const PeerTube& other : task.others) T_others_odom_.push_back(other.pose.inverse());
     for (const PeerTube& tube : task.first) starts_.push_back(placeIn(tube, task.start.position()).along);
+    for (const PeerTube& other : task.others) {
+      T_others_odom_.push_back(other.pose.inverse());
+      makes_room_.push_back(goesBefore(task.right, other.right) || isPushedOn(other));
+    }
     flood();
   }
 
@@ -120,7 +124,7 @@ class EscapeSearch {
       const double dx = std::max(0.0, std::abs(q.x()) - 0.5 * other.footprint.length);
       const double dy = std::max(0.0, std::abs(q.y()) - 0.5 * other.footprint.width);
       if (std::hypot(dx, dy) > least + kBodyGap) continue;
-      if (goesBefore(task_.right, other.right)) {
+      if (makes_room_[i]) {
         cost += kPushWeight;
       } else if (!at_start) {
         return -1.0;
@@ -128,9 +132,21 @@ class EscapeSearch {
     }
     for (std::size_t i = 0; i < task_.first.size(); ++i) {
       const TubePlace place = placeIn(task_.first[i], p);
-      if (place.distance < clearOf(task_.first[i]) && place.along < starts_[i] - 0.3) cost += kAgainstWeight;
+      if (place.distance < clearOf(task_.first[i]) && place.along < starts_[i] - kFurtherOn) cost += kAgainstWeight;
     }
     return cost;
+  }
+
+  /// Makes room for the same robot as this one, and stands further along that one's way.
+  bool isPushedOn(const PeerTube& other) const {
+    if (other.right.depth == 0 || other.right.holder != task_.right.holder) return false;
+    for (std::size_t i = 0; i < task_.first.size(); ++i) {
+      const PeerTube& tube = task_.first[i];
+      if (tube.id == other.id || tube.right.holder != task_.right.holder) continue;
+      const TubePlace place = placeIn(tube, other.pose.position());
+      if (place.distance < clearOf(tube) && place.along > starts_[i] + kFurtherOn) return true;
+    }
+    return false;
   }
 
   double clearOf(const PeerTube& tube) const {
@@ -233,8 +249,9 @@ class EscapeSearch {
   GridFrame frame_;
   std::vector<double> starts_;  // [m] how far along each tube the robot is
   std::vector<Pose2> T_others_odom_;
-  std::vector<float> costs_;   // [-] of the way from the start
-  std::vector<float> metres_;  // [-] cost of a metre, NaN where nobody asked yet
+  std::vector<bool> makes_room_;  // who stands in the way and will not for long
+  std::vector<float> costs_;      // [-] of the way from the start
+  std::vector<float> metres_;     // [-] cost of a metre, NaN where nobody asked yet
   std::vector<int> parents_;
 };
 

@@ -130,7 +130,7 @@ std::optional<Proposal> Manoeuvres::backOut(const ManoeuvreTask& task) const {
 std::size_t Manoeuvres::squeezeTarget(const Path& fine, const ManoeuvreTask& task) const {
   const double room = footprint_.circumscribedRadius() + task.margins.creeping;
   const double least = footprint_.inscribedRadius();
-  const Surroundings& around = task.scene.surroundings;
+  const Surroundings& around = task.with_them != nullptr ? *task.with_them : task.scene.surroundings;
   std::size_t target = 0;
   for (std::size_t i = 1; i < fine.size() && static_cast<double>(i) <= kSqueezeMost / kSqueezeStep; ++i) {
     const double free = around.obstacles().at(fine[i]);
@@ -149,6 +149,8 @@ std::optional<Proposal> Manoeuvres::squeeze(const ManoeuvreTask& task) const {
   NarrowSearchOptions search;
   search.expansions = options_.narrow_iterations;
   search.clearance = task.margins.creeping;
+  search.bodies = task.bodies;
+  search.with_them = task.with_them;
   TrajectoryPoint start = task.start;
   start.twist = {};
   std::vector<TrajectoryPoint> points = searchNarrow(start, fine[target], task.scene.surroundings, generator_.probe(),

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "cost_to_go.h"
+#include "parley_geometry/polygon.h"
 
 namespace parley {
 
@@ -20,6 +21,7 @@ constexpr double kReversePrice = 1.3;            // [-] it is blind to nothing, 
 constexpr double kSwitchPrice = 0.6;             // [s] another kind of move: stop and start again
 constexpr double kTypicalSpeed = 0.4;            // [m/s]
 constexpr double kReach = 8.0;                   // [m] longer ways are not looked for
+constexpr double kFarBody = 0.3;                 // [m] further off is all the same
 constexpr double kFieldError = 0.04;             // [m] by which cells may make a place look narrower than it is
 
 /// One move: a turn on the spot, or a stretch on a curvature.
@@ -59,9 +61,11 @@ class Search {
         probe_(probe),
         options_(options),
         moves_(allMoves()),
-        guide_(surroundings, target, probe.inscribedRadius() - kFieldError, kReach) {
+        guide_(options.with_them != nullptr ? *options.with_them : surroundings, target, probe.inscribedRadius() - kFieldError,
+               kReach) {
     floor_ = std::min(options.clearance, probe.clearance(surroundings.obstacles(), start) - 1e-3);
     unseen_floor_ = std::min(0.0, probe.clearance(surroundings.unseen(), start) - 1e-3);
+    body_floor_ = std::min(0.0, bodyClearance(start) - 1e-3);
     nodes_.push_back({start, -1, -1, 0.0, false});
     index_[key(start)] = 0;
     open_.push({estimate(start), 0});
@@ -92,7 +96,19 @@ class Search {
 
   bool isFree(const Pose2& pose) const {
     return probe_.clearance(surroundings_.obstacles(), pose) >= floor_ &&
-           probe_.clearance(surroundings_.unseen(), pose) >= unseen_floor_;
+           probe_.clearance(surroundings_.unseen(), pose) >= unseen_floor_ && bodyClearance(pose) >= body_floor_;
+  }
+
+  /// [m] more than should be kept from the nearest of those who stand.
+  double bodyClearance(const Pose2& pose) const {
+    double least = kFarBody;
+    for (const Blocked::Body& body : options_.bodies) {
+      const double reach = probe_.footprint().circumscribedRadius() + body.footprint.circumscribedRadius() + body.growth;
+      if ((body.pose.position() - pose.position()).norm() > reach + kFarBody) continue;
+      const Polygon there = body.footprint.polygonAt(body.pose);
+      least = std::min(least, convexDistance(probe_.footprint().polygonAt(pose), there) - body.growth);
+    }
+    return least;
   }
 
   void expand(int from, int move_index) {
@@ -131,7 +147,7 @@ class Search {
   const NarrowSearchOptions& options_;
   std::vector<Move> moves_;
   CostToGo guide_;
-  double floor_, unseen_floor_;
+  double floor_, unseen_floor_, body_floor_;
   std::vector<Node> nodes_;
   std::unordered_map<long, int> index_;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> open_;

@@ -8,9 +8,11 @@
 namespace parley {
 
 struct NarrowSearchOptions {
-  int expansions = 4000;    // [-] bound of the search
-  double clearance = 0.02;  // [m] of the footprint
-  double slow_speed = 0.5;  // [m/s] highest on the way
+  int expansions = 4000;                    // [-] bound of the search
+  double clearance = 0.02;                  // [m] of the footprint
+  double slow_speed = 0.5;                  // [m/s] highest on the way
+  std::vector<Blocked::Body> bodies = {};   // that stand, not nearer to which than their growth, or than at the start
+  const Surroundings* with_them = nullptr;  // null: there are none
 };
 
 /// A* over positions and headings with the exact footprint, for places where the rectangle has to turn before it fits:

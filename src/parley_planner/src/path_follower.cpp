@@ -71,7 +71,7 @@ PathDrive followPath(const ReferencePath& path, const SpeedProfile& profile, con
   const double turned = reverse ? kPi : 0.0;
   Motion motion;
   motion.pose = {start.pose.x, start.pose.y, wrapAngle(start.pose.yaw + turned)};
-  motion.speed = std::max(0.0, sign * start.twist.speed);
+  motion.speed = std::max(-limits.acceleration * time_step, sign * start.twist.speed);  // it may still roll the other way
   motion.turn_rate = start.twist.turn_rate;
   motion.s = path.project(motion.pose.position(), 0.0, kProjectReach);
   PathDrive drive;

@@ -65,7 +65,8 @@ void Planner::Pipeline::reset() {
   escape_.reset();
   way_out_.reset();
   room_.reset();
-  back_ = 0.0;
+  narrow_.reset();
+  furthest_ = back_ = 0.0;
   failed_escapes_.clear();
   passing_off_until_ = stranger_until_ = stranger_seen_ = blocked_since_ = blocked_last_ = waited_since_ = waited_last_ =
       rested_since_ = -1e9;
@@ -109,7 +110,7 @@ PlanResult Planner::Pipeline::planFrom(const PlanRequest& request) {
   const bool busy =
       valid && !request.committed.empty() && request.start_time < std::min(busy_until_, request.committed.endTime());
   if (busy) return keep(code_, "");
-  if (way_out_ && !traffic_.isShutIn(request.now, start.pose.position())) way_out_.reset();
+  if (way_out_ && !traffic_.isShutIn(request.now)) way_out_.reset();
   if (way_out_) return leave(request, start, valid);
   if (request.at_goal || arrived(request)) return rest(request, start);
   rested_since_ = request.now;
@@ -216,7 +217,7 @@ void Planner::Pipeline::look(const PlanRequest& request, const TrajectoryPoint& 
     const double gap = sight_law_.gapAt(start.pose.position(), start.twist.speed < 0.0);
     speed_bound_ = std::min(limits_.speed, sight_law_.speedFor(gap));
   }
-  lookForRoom(start.pose.position());
+  lookForRoom(start.pose.position(), request.now);
   if (!route_.exists()) return;
   local_goal_ = localGoal(route_, request.odometry.pose.position(), options_.look_ahead, request.map.frame, kWindowRim);
   watch_.update(request.odometry.pose.position(), request.now);
@@ -291,9 +292,8 @@ std::optional<Proposal> Planner::Pipeline::bestProposal(const PlanRequest& reque
   consider(attempt(wide, start));
   if (isUseful(best) || !stands(start.twist) || request.now - squeezed_at_ < kSqueezePeriod) return best;
   squeezed_at_ = request.now;
-  Attempt squeeze = usual;
-  squeeze.squeeze = true;
-  consider(attempt(squeeze, start));
+  const FoundPath found = search(usual, start);
+  if (!found.points.empty()) consider(squeezeAlong(straightened(surroundings_, found.points, usual.comfort_distance), start));
   return best;
 }
 
@@ -332,12 +332,8 @@ std::optional<Proposal> Planner::Pipeline::attempt(const Attempt& how, const Tra
 std::optional<Proposal> Planner::Pipeline::along(const Path& path, const Attempt& how, const TrajectoryPoint& start) {
   if (pathLength(path) < kLeastPath) return std::nullopt;
   const Surroundings& shape = how.shape != nullptr ? *how.shape : surroundings_;
-  const DriveScene scene{how.squeeze ? shape : surroundings_,
-                         traffic_.tracks(),
-                         options_.prediction_time,
-                         options_.track_margin,
-                         traffic_.careful(),
-                         options_.peer_margin};
+  const DriveScene scene{surroundings_,         traffic_.tracks(),  options_.prediction_time,
+                         options_.track_margin, traffic_.careful(), options_.peer_margin};
   const ManoeuvreTask task{path,
                            start,
                            committed_,
@@ -345,7 +341,9 @@ std::optional<Proposal> Planner::Pipeline::along(const Path& path, const Attempt
                            how.margins,
                            how.push_distance,
                            options_.sight_law ? &sight_law_ : nullptr,
-                           shape.obstacles()};
+                           shape.obstacles(),
+                           how.bodies,
+                           how.shape};
   std::optional<Proposal> proposal;
   const double time = timed([&] { proposal = how.squeeze ? manoeuvres_.squeeze(task) : manoeuvres_.propose(task); });
   trajectory_time_ = std::max(0.0, trajectory_time_) + time;

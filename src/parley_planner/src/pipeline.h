@@ -33,10 +33,11 @@ class Planner::Pipeline {
     double push_distance;     // [m]
     Margins margins;
     bool squeeze;
-    const Surroundings* shape = nullptr;  // with peers' room closed; null: as seen
-    bool whole = false;                   // only a path to the local goal itself will do
-    double most = 1e9;                    // [m] and no longer than this
-    double trim = 0.0;                    // [m] of a path that does not reach the local goal, left out at its end
+    const Surroundings* shape = nullptr;     // with peers' room closed; null: as seen
+    bool whole = false;                      // only a path to the local goal itself will do
+    double most = 1e9;                       // [m] and no longer than this
+    double trim = 0.0;                       // [m] of a path that does not reach the local goal, left out at its end
+    std::vector<Blocked::Body> bodies = {};  // that stand, in `shape` too
   };
 
   bool usable(const PlanRequest& request) const;
@@ -70,6 +71,7 @@ class Planner::Pipeline {
   std::optional<PlanResult> makeWay(const PlanRequest& request, const TrajectoryPoint& start, const Eigen::Vector2d& back_to);
   std::optional<Proposal> escape(const TrafficDecision& decision, const PlanRequest& request, const TrajectoryPoint& start);
   std::optional<Proposal> escapeAlong(const Path& path, const PlanRequest& request, const TrajectoryPoint& start);
+  std::optional<Proposal> squeezeAlong(const Path& path, const TrajectoryPoint& start);
   void findWayOut(const TrafficDecision& decision, const PlanRequest& request, const TrajectoryPoint& start);
   PlanResult leave(const PlanRequest& request, const TrajectoryPoint& start, bool committed_valid);
   std::optional<PlanResult> makeRoomForStranger(const PlanRequest& request, const TrajectoryPoint& start);
@@ -78,7 +80,7 @@ class Planner::Pipeline {
   void backOffFrom(const Eigen::Vector2d& other, const PlanRequest& request, const TrajectoryPoint& start);
   PlanResult standStill(const PlanRequest& request, const TrajectoryPoint& start, PlanCode code, const std::string& why);
   bool isTouched(const PlanRequest& request);
-  void lookForRoom(const Eigen::Vector2d& here);
+  void lookForRoom(const Eigen::Vector2d& here, double now);
   void tell(const RightOfWay& right, const Path& way);
   std::optional<Proposal> bestProposal(const PlanRequest& request, const TrajectoryPoint& start);
   Path routeToLocalGoal(const Eigen::Vector2d& here) const;
@@ -104,7 +106,9 @@ class Planner::Pipeline {
   std::optional<Eigen::Vector2d> escape_;                           // [m] the escape point on the way to which it is
   Path wished_escape_;                                              // [m] the way to the first escape point that was looked at
   std::optional<Eigen::Vector2d> room_;                             // [m] where it was when another could last have passed
-  double back_ = 0.0;                                               // [m] the furthest it has been from there since
+  std::optional<Eigen::Vector2d> narrow_;                           // [m] where it was when another could last not have passed
+  double furthest_ = 0.0;                                           // [m] it has been from its room since,
+  double back_ = 0.0;                                               // [m] and the part of it that nobody pushed it
   std::vector<std::pair<double, Eigen::Vector2d>> failed_escapes_;  // [s] until when not to be tried, [m]
   std::optional<PeerTube> stranger_;                                // that it makes room for, unheard
   double stranger_until_ = -1e9;                                    // [s]

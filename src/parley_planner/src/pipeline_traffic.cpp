@@ -12,40 +12,35 @@ namespace parley {
 
 namespace {
 
-constexpr double kNearPeer = 10.0;      // [m] a peer further off does not matter
-constexpr double kClosePeer = 6.0;      // [m]
-constexpr double kShutIn = 10.0;        // [-] priority of a robot that has nowhere to go
-constexpr double kLongBack = 8.0;       // [m] of way back make the priority higher
-constexpr double kPerLongBack = 0.5;    // [-] by so much,
-constexpr double kMostBack = 8.0;       // [-] so many times at most
-constexpr double kRoomy = 0.75;         // [m] around a place where one robot can pass another
-constexpr double kWishStays = 0.35;     // [s]
-constexpr double kRest = 0.7;           // [s] at its goal before a robot makes room for others
-constexpr double kOut = 0.7;            // [m] from the place where it wanted to go, a robot is out again
-constexpr double kBlockedBreak = 1.0;   // [s]
-constexpr double kLeastPatience = 2.0;  // [s] a robot waits for a stranger to go away,
-constexpr double kMorePatience = 5.0;   // [s] or up to so much longer
-constexpr double kLongWait = 8.0;       // [s] at least, for a teammate that stands
-constexpr double kStrangerNear = 8.0;   // [m] who is further off does not come
-constexpr double kStrangerGone = 5.0;   // [s] not seen for so long, it does not come
-constexpr double kStandOffReach = 2.0;  // [m] who is further off does not block
-constexpr double kSameStandOff = 20.0;  // [s] after one, the next is another try at the same
-constexpr int kMostDoublings = 3;       // [-] of the time for which room is made
-constexpr double kStrangerReach = 5.0;  // [m] behind this robot
-constexpr double kWaitingGap = 0.8;     // [m] to a peer that this robot waits for
-constexpr double kTellReach = 8.0;      // [m] of the way that is told
-constexpr double kPassingGap = 0.12;    // [m] between two that pass each other
-constexpr double kSeparation = 0.2;     // [m] that two who keep right would like between them
-constexpr double kDetour = 1.5;         // [-] times and
-constexpr double kDetourMore = 1.0;     // [m] more is not too long a way round peers
-constexpr double kPassingOff = 6.0;     // [s] having got stuck, passing by is not tried for so long
-constexpr double kFailedFor = 10.0;     // [s] an escape point that could not be reached is not tried for so long
-constexpr double kFailedShortly = 3.0;  // [s] and one to which no motion was found for so long
-constexpr int kEscapeTries = 3;         // [-] escape points looked at in one plan
-constexpr double kStandOff = 0.3;       // [m] that a waiting robot stays before where it could go to
-constexpr double kWorthCreeping = 0.3;  // [m] a waiting robot does not move up by less
-constexpr double kAnotherEscape = 1.0;  // [m] an escape point further from the last is another one
-constexpr double kCloser = 0.02;        // [m]
+constexpr double kNearPeer = 10.0;       // [m] a peer further off does not matter
+constexpr double kClosePeer = 6.0;       // [m]
+constexpr double kShutIn = 10.0;         // [-] priority of a robot that has nowhere to go
+constexpr double kLongBack = 8.0;        // [m] of way back make the priority higher
+constexpr double kPerLongBack = 0.5;     // [-] by so much,
+constexpr double kMostBack = 8.0;        // [-] so many times at most
+constexpr double kRoomy = 0.75;          // [m] around a place where one robot can pass another,
+constexpr double kWellOut = 2.0;         // [m] if it has come so far from where it cannot
+constexpr double kWishStays = 0.35;      // [s]
+constexpr double kRest = 0.7;            // [s] at its goal before a robot makes room for others
+constexpr double kOut = 0.7;             // [m] from the place where it wanted to go, a robot is out again
+constexpr double kWaitingGap = 0.8;      // [m] to a peer that this robot waits for
+constexpr double kTellReach = 8.0;       // [m] of the way that is told
+constexpr double kPassingGap = 0.12;     // [m] between two that pass each other
+constexpr double kSeparation = 0.2;      // [m] that two who keep right would like between them
+constexpr double kDetour = 1.5;          // [-] times and
+constexpr double kDetourMore = 1.0;      // [m] more is not too long a way round peers
+constexpr double kPassingOff = 6.0;      // [s] having got stuck, passing by is not tried for so long
+constexpr double kFailedFor = 10.0;      // [s] an escape point that could not be reached is not tried for so long
+constexpr double kFailedShortly = 3.0;   // [s] and one to which no motion was found for so long
+constexpr int kEscapeTries = 3;          // [-] escape points looked at in one plan
+constexpr double kStandOff = 0.3;        // [m] that a waiting robot stays before where it could go to
+constexpr double kWorthCreeping = 0.3;   // [m] a waiting robot does not move up by less
+constexpr double kNearBody = 5.0;        // [m]
+constexpr double kSqueezedGap = 0.05;    // [m] to those who stand, and the error of their pose
+constexpr double kWorthSqueezing = 1.0;  // [m] towards where another stands, who will make room, less is not tried
+constexpr double kAnotherEscape = 1.0;   // [m] an escape point further from the last is another one
+constexpr double kCloser = 0.02;         // [m]
+constexpr double kBeginning = 0.4;       // [m] of a path
 
 bool comesUnder(const Path& path, const Blocked::Body& body, double more) {
   const Pose2 T_body_odom = body.pose.inverse();
@@ -53,11 +48,16 @@ bool comesUnder(const Path& path, const Blocked::Body& body, double more) {
                      [&](const Eigen::Vector2d& p) { return body.footprint.contains(T_body_odom * p, body.growth + more); });
 }
 
-/// In [0, 1), another one for each robot and each time.
-double shareOf(std::uint32_t id, std::uint32_t time) {
-  std::uint32_t hash = (id ^ (time * 2654435761U)) * 2246822519U;
-  hash = (hash ^ (hash >> 15)) * 3266489917U;
-  return static_cast<double>(hash >> 16) / 65536.0;
+/// What of a path comes before it is under a body; that its beginning may be is no matter.
+Path upToBodies(const Path& path, const std::vector<Blocked::Body>& bodies, double more) {
+  Path free = {path.front()};
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const bool taken =
+        std::any_of(bodies.begin(), bodies.end(), [&](const auto& body) { return comesUnder({path[i]}, body, more); });
+    if (taken && (path[i] - path[0]).norm() > kBeginning) break;
+    free.push_back(path[i]);
+  }
+  return free;
 }
 
 bool among(const std::vector<PeerTube>& tubes, std::uint32_t id) {
@@ -93,18 +93,26 @@ bool Planner::Pipeline::isBehindPeer(const TrajectoryPoint& start) const {
 /// When nobody pushes it. Who has a long way back to where it could let others pass goes before who has not: those who are
 /// deep in a corridor come out first, one after the other.
 RightOfWay Planner::Pipeline::ownRight(const PlanRequest& request) const {
-  const Eigen::Vector2d here = request.odometry.pose.position();
-  if (traffic_.isShutIn(request.now, here)) return {kShutIn, request.id, 0};
+  if (traffic_.isShutIn(request.now)) return {kShutIn, request.id, 0};
   if (reached_) return {0.0, request.id, 0};
   return {1.0 + kPerLongBack * std::min(kMostBack, std::floor(back_ / kLongBack)), request.id, 0};
 }
 
-/// Remembers where there was last room for two, and how far it has been from there since: what was pushed deep into a corridor
-/// keeps its priority until it is out, else it is pushed back and forth.
-void Planner::Pipeline::lookForRoom(const Eigen::Vector2d& here) {
+/// Remembers where there was last room for two, and how far it has come from there of its own will: what drove deep into a
+/// corridor keeps its priority until it is well out, else robots push each other back and forth.
+void Planner::Pipeline::lookForRoom(const Eigen::Vector2d& here, double now) {
   const bool is_roomy = surroundings_.obstacles().at(here) >= kRoomy && surroundings_.unseen().at(here) >= 0.5 * kRoomy;
-  if (!room_ || is_roomy) room_ = here;
-  back_ = is_roomy ? 0.0 : std::max(back_, (*room_ - here).norm());
+  if (!is_roomy) narrow_ = here;
+  traffic_.getsOn(now, here, is_roomy);
+  if (!room_ || (is_roomy && (!narrow_ || (*narrow_ - here).norm() > kWellOut))) {
+    room_ = here;
+    back_ = furthest_ = 0.0;
+    return;
+  }
+  const double further = (*room_ - here).norm() - furthest_;
+  if (further <= 0.0) return;
+  furthest_ += further;
+  if (intent_.right.depth == 0) back_ += further;
 }
 
 void Planner::Pipeline::tell(const RightOfWay& right, const Path& way) {
@@ -123,8 +131,9 @@ Path Planner::Pipeline::desiredWay(const TrajectoryPoint& start) const {
   return wayFrom(way, start.pose.position(), kTellReach);
 }
 
-/// What it wished at the last plan, or the route if there was nobody to wish it for then.
+/// To where it makes room, or what it wished at the last plan, or the route if there was nobody to wish it for then.
 Path Planner::Pipeline::expectedWay(const PlanRequest& request) const {
+  if (escape_) return wayFrom(intent_.way, request.odometry.pose.position(), kTellReach);
   if (request.now - desired_at_ < kWishStays) return desired_;
   return wayFrom(route_.points, request.odometry.pose.position(), kTellReach);
 }
@@ -300,83 +309,26 @@ std::optional<Proposal> Planner::Pipeline::escapeAlong(const Path& path, const P
   std::optional<Proposal> proposal = along(straight, how, start);
   if (proposal || !stands(start.twist) || request.now - squeezed_at_ < kSqueezePeriod) return proposal;
   squeezed_at_ = request.now;
+  return squeezeAlong(straight, start);
+}
+
+/// By a search among positions and headings, past teammates as they stand now. Where one stands in the way, it is going to drive
+/// on.
+std::optional<Proposal> Planner::Pipeline::squeezeAlong(const Path& path, const TrajectoryPoint& start) {
+  Attempt how = usualAttempt();
+  how.squeeze = true;
+  for (const PeerTube& tube : traffic_.tubes()) {
+    if ((tube.pose.position() - start.pose.position()).norm() > kNearBody) continue;
+    how.bodies.push_back({tube.pose, tube.footprint, kSqueezedGap + std::max(0.0, tube.margin - options_.peer_margin)});
+  }
+  if (how.bodies.empty()) return along(path, how, start);
+  const Path free = upToBodies(resampled(path, kTubeStep), how.bodies, footprint_.inscribedRadius());
+  if (pathLength(free) < std::min(kWorthSqueezing, pathLength(path) - kTubeStep)) return std::nullopt;
   Blocked blocked;
-  for (const PeerTube& tube : traffic_.tubes()) blocked.bodies.push_back({tube.pose, tube.footprint, tube.margin});
+  blocked.bodies = how.bodies;
   const Surroundings shape = surroundings_.with(blocked);
   how.shape = &shape;
-  how.squeeze = true;
-  return along(straight, how, start);
-}
-
-std::optional<PlanResult> Planner::Pipeline::makeRoomForStranger(const PlanRequest& request, const TrajectoryPoint& start) {
-  const Eigen::Vector2d here = start.pose.position();
-  const bool is_there = std::any_of(traffic_.tracks().begin(), traffic_.tracks().end(), [&](const TrackedObject& track) {
-    return track.has_moved && (track.position - here).norm() < kStrangerNear;
-  });
-  if (is_there) stranger_seen_ = request.now;
-  if (request.now - stranger_seen_ > kStrangerGone) stranger_.reset();
-  if (!stranger_ || request.now >= stranger_until_) return std::nullopt;
-  const TrafficDecision decision{ownRight(request), {*stranger_}, {}, true};
-  tell(decision.right, {start.pose.position()});
-  return makeRoom(decision, request, start);
-}
-
-/// Blocked by somebody who is not heard. Nothing can be agreed: after a while of its own choice, different for each robot and
-/// each time, it makes room as if the other wanted to pass right through it, for a while of its own choice, each time longer.
-void Planner::Pipeline::standOff(const PlanRequest& request, const TrajectoryPoint& start) {
-  if (!somethingMoved(request)) return;
-  if (request.now - blocked_last_ > kBlockedBreak) blocked_since_ = request.now;
-  blocked_last_ = request.now;
-  const double patience = kLeastPatience + kMorePatience * shareOf(request.id, stand_offs_);
-  if (request.now - blocked_since_ < patience) return;
-  const Eigen::Vector2d here = start.pose.position();
-  const auto nearest =
-      std::min_element(traffic_.tracks().begin(), traffic_.tracks().end(), [&](const TrackedObject& a, const TrackedObject& b) {
-        return std::make_pair(!a.has_moved, (a.position - here).norm()) <
-               std::make_pair(!b.has_moved, (b.position - here).norm());
-      });
-  if (nearest == traffic_.tracks().end() || !nearest->has_moved) return;
-  if ((nearest->position - here).norm() > kStandOffReach + nearest->radius) return;
-  blocked_since_ = request.now;
-  backOffFrom(nearest->position, request, start);
-}
-
-/// Waiting for a teammate that stands and sees no reason to make room: by its own estimate of where the two are, it is not in
-/// the way. After a while this robot makes room as if the other came, and tries again from elsewhere.
-void Planner::Pipeline::outwait(const PlanRequest& request, const TrajectoryPoint& start) {
-  if (request.now - waited_last_ > kBlockedBreak) waited_since_ = request.now;
-  waited_last_ = request.now;
-  if (request.now - waited_since_ < kLongWait + kMorePatience * shareOf(request.id, stand_offs_)) return;
-  waited_since_ = request.now;
-  const Eigen::Vector2d here = start.pose.position();
-  const PeerTube* nearest = nullptr;
-  for (const PeerTube& tube : traffic_.tubes()) {
-    if (!tube.standing) continue;
-    const bool is_nearer = nearest == nullptr || (tube.pose.position() - here).norm() < (nearest->pose.position() - here).norm();
-    if (is_nearer) nearest = &tube;
-  }
-  if (nearest == nullptr || (nearest->pose.position() - here).norm() > kStandOffReach) return;
-  stranger_seen_ = request.now;
-  backOffFrom(nearest->pose.position(), request, start);
-}
-
-void Planner::Pipeline::backOffFrom(const Eigen::Vector2d& other, const PlanRequest& request, const TrajectoryPoint& start) {
-  const Eigen::Vector2d here = start.pose.position();
-  ++stand_offs_;
-  stand_offs_in_row_ = request.now - stranger_until_ < kSameStandOff ? stand_offs_in_row_ + 1 : 0;
-  const double longer = std::exp2(std::min(kMostDoublings, stand_offs_in_row_));
-  stranger_until_ = request.now + longer * (kLeastPatience + kMorePatience * shareOf(request.id, stand_offs_ + 1000));
-  const Eigen::Vector2d towards = (here - other).normalized();
-  const Path through = {other, here, here + kStrangerReach * towards};
-  stranger_ = PeerTube{0,
-                       {3.0, 0, 0},
-                       footprint_,
-                       {other.x(), other.y(), std::atan2(towards.y(), towards.x())},
-                       0.0,
-                       resampled(through, kTubeStep),
-                       options_.peer_margin,
-                       true,
-                       false};
+  return along(free, how, start);
 }
 
 /// Standing, or braking to a stand.

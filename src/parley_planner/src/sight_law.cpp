@@ -329,7 +329,6 @@ double SightLaw::speedFor(double gap) const {
 }
 
 double SightLaw::gapAt(const Eigen::Vector2d& p_odom, bool backwards) const {
-  if (backwards && team_known_) return kFarGap;
   const Eigen::Vector2i cell = frame_.cellOf(p_odom);
   const Costs& known = gaps(backwards);
   if (known.empty() || !frame_.contains(cell)) return 0.0;

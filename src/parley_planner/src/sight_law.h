@@ -49,7 +49,7 @@ class SightLaw {
   /// [m/s] for a gap [m] between the middles of two robots driving at each other: both brake after the reaction time.
   double speedFor(double gap) const;
   /// Distance [m] that an intruder must at least drive to a place ahead, or behind for one that drives `backwards`; `kFarGap`
-  /// where none comes near, and behind where the team is known: a queue that backs out of a corridor would stand in its own way.
+  /// where none comes near.
   double gapAt(const Eigen::Vector2d& p_odom, bool backwards = false) const;
   bool possibleAt(const Eigen::Vector2d& p_odom) const;
 

@@ -91,7 +91,7 @@ Surroundings Surroundings::with(const Blocked& blocked) const {
   return result;
 }
 
-FootprintProbe::FootprintProbe(const Footprint& footprint) : inscribed_(footprint.inscribedRadius()) {
+FootprintProbe::FootprintProbe(const Footprint& footprint) : footprint_(footprint) {
   const double half_long = 0.5 * std::max(footprint.length, footprint.width);
   const double half_short = 0.5 * std::min(footprint.length, footprint.width);
   const bool along_x = footprint.length >= footprint.width;

@@ -56,7 +56,8 @@ class FootprintProbe {
   explicit FootprintProbe(const Footprint& footprint);
   /// [m] from the rectangle at `pose` to what the field marks; negative inside.
   double clearance(const DistanceField& field, const Pose2& pose) const;
-  double inscribedRadius() const { return inscribed_; }  // [m]
+  double inscribedRadius() const { return footprint_.inscribedRadius(); }  // [m]
+  const Footprint& footprint() const { return footprint_; }
 
  private:
   struct Point {
@@ -64,7 +65,7 @@ class FootprintProbe {
     double radius;  // [m] of the disc that the point stands for
   };
   std::vector<Point> points_;
-  double inscribed_;  // [m]
+  Footprint footprint_;
 };
 
 }  // namespace parley

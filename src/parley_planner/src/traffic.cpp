@@ -19,8 +19,9 @@ constexpr int kDeepest = 15;            // [-] through so many robots a right of
 constexpr double kLentFor = 0.6;        // [s] a right of way is kept after it was last needed
 constexpr double kNoRoomFor = 1.0;      // [s] without anywhere to make room a robot is shut in,
 constexpr double kNoRoomBreak = 0.5;    // [s] with breaks shorter than this,
-constexpr double kShutInFor = 20.0;     // [s] for so long at most
-constexpr double kOutAgain = 10.0;      // [m] and until it has come so far
+constexpr double kShutInFor = 20.0;     // [s] for so long
+constexpr double kOutStep = 1.0;        // [m] after it got on by so much,
+constexpr double kOutAgain = 10.0;      // [m] and until it has come so far and has room
 constexpr double kKeepsTo = 0.6;        // [s] for which others surely keep to what they said
 constexpr double kUsualSpeed = 1.2;     // [m/s] at which robots are taken to get on
 constexpr double kAhead = 1.5;          // [s] by which a robot must be earlier to pass before one that goes first
@@ -53,13 +54,22 @@ bool Traffic::cannotMakeRoom(double now, const Eigen::Vector2d& here) {
   if (now - no_room_last_ > kNoRoomBreak) no_room_since_ = now;
   no_room_last_ = now;
   if (now - no_room_since_ < kNoRoomFor) return false;
+  if (!isShutIn(now)) {
+    shut_in_at_ = here;
+    came_out_ = 0.0;
+  }
   shut_in_until_ = now + kShutInFor;
-  shut_in_at_ = here;
   return true;
 }
 
-bool Traffic::isShutIn(double now, const Eigen::Vector2d& here) const {
-  return now < shut_in_until_ && (here - shut_in_at_).norm() < kOutAgain;
+/// In the middle of a corridor the right must not end: those that made room would come back.
+void Traffic::getsOn(double now, const Eigen::Vector2d& here, bool has_room) {
+  if (!isShutIn(now)) return;
+  const double out = (here - shut_in_at_).norm();
+  if (out > kOutAgain && has_room) return isOutAgain();
+  if (out < came_out_ + kOutStep) return;
+  came_out_ = out;
+  shut_in_until_ = now + kShutInFor;
 }
 
 void Traffic::observe(const PlanRequest& request) {

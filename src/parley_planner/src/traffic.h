@@ -47,8 +47,10 @@ class Traffic {
   /// There is nowhere to make room. Having said so for a while without a break, it is shut in: then others have to make room
   /// for it, until it has come out. Returns whether it is so now.
   bool cannotMakeRoom(double now, const Eigen::Vector2d& here);
+  bool isShutIn(double now) const { return now < shut_in_until_; }
+  /// Where the robot is by now, and whether another could pass it there.
+  void getsOn(double now, const Eigen::Vector2d& here, bool has_room);
   void isOutAgain() { shut_in_until_ = -1e9; }
-  bool isShutIn(double now, const Eigen::Vector2d& here) const;
 
   /// `way`: where this robot would go if it were alone, from where it is. `own`: its right of way when nobody pushes it.
   TrafficDecision decide(const Path& way, const RightOfWay& own, const TrajectoryPoint& state, double now);
@@ -75,6 +77,7 @@ class Traffic {
   double no_room_last_ = -1e9;   // [s]
   double shut_in_until_ = -1e9;  // [s]
   Eigen::Vector2d shut_in_at_ = Eigen::Vector2d::Zero();
+  double came_out_ = 0.0;  // [m] from there
 };
 
 }  // namespace parley

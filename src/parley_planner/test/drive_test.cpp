@@ -7,6 +7,7 @@
 #include "cost_to_go.h"
 #include "drive_generator.h"
 #include "narrow_search.h"
+#include "parley_geometry/polygon.h"
 #include "progress_watch.h"
 #include "scenes.h"
 #include "trajectory_validator.h"
@@ -87,6 +88,10 @@ TEST(PathFollower, Reverses) {
   EXPECT_NEAR(drive.points.back().pose.x, 5.0, 0.03);
   EXPECT_NEAR(std::abs(drive.points.back().pose.yaw), kPi, 0.02);
   EXPECT_LT(drive.points[10].twist.speed, 0.0);
+  // From still rolling forwards.
+  const PathDrive rolling = followPath(path, profile, {0.0, {2.0, 5.0, -kPi}, {0.015, 0.0}}, true, robotLimits(), kStep);
+  EXPECT_EQ(motionFlaw(rolling.points, robotLimits()), "");
+  EXPECT_NEAR(rolling.points.back().pose.x, 5.0, 0.03);
 }
 
 TEST(TurnOnSpot, IsExactForAnyAngle) {
@@ -199,6 +204,29 @@ TEST(NarrowSearch, TurnsBeforeItEnters) {
   for (const TrajectoryPoint& p : points) EXPECT_FALSE(world.touches(robotFootprint(), p.pose));
   EXPECT_TRUE(searchNarrow(start, {1.0, 1.0}, surroundings, probe, robotLimits(), kStep, {40000, 0.04, 0.5}).empty());
   EXPECT_TRUE(searchNarrow(start, {5.0, 7.5}, surroundings, probe, robotLimits(), kStep, {2, 0.04, 0.5}).empty());
+}
+
+TEST(NarrowSearch, TurnsBesideAnotherThatStands) {
+  // Across a corridor, with a teammate nearer than should be on one side: first away from it.
+  World world(10, 10, true);
+  world.fill(0.5, 4.4, 9.5, 5.6, false);
+  const Surroundings walls(seenMap(world), {}, {}, {});
+  const Footprint footprint = robotFootprint();
+  Blocked blocked;
+  blocked.bodies = {{{5.865, 4.985, 0.0}, footprint, 0.1}};
+  const Surroundings with_them = walls.with(blocked);
+  const TrajectoryPoint start{0.0, {5.0, 5.1, -0.92}, {}};
+  const double gap = convexDistance(footprint.polygonAt(start.pose), footprint.polygonAt(blocked.bodies[0].pose));
+  ASSERT_LT(gap, 0.08);
+  NarrowSearchOptions options{40000, 0.05, 0.5, blocked.bodies, &with_them};
+  const auto points = searchNarrow(start, {3.0, 5.0}, walls, FootprintProbe(footprint), robotLimits(), kStep, options);
+  ASSERT_FALSE(points.empty());
+  for (const TrajectoryPoint& p : points) {
+    EXPECT_FALSE(world.touches(footprint, p.pose));
+    EXPECT_GT(convexDistance(footprint.polygonAt(p.pose), footprint.polygonAt(blocked.bodies[0].pose)), gap - 0.015);
+  }
+  // Past it there is no way.
+  EXPECT_TRUE(searchNarrow(start, {8.0, 5.0}, walls, FootprintProbe(footprint), robotLimits(), kStep, options).empty());
 }
 
 TEST(NarrowSearch, ArcsAreWithinTheLimitsToTheLastBit) {

@@ -74,6 +74,23 @@ TEST_F(EscapeTest, GoesThroughThoseWhoMakeRoomOnly) {
   EXPECT_TRUE(!closed || closed->back().x() < 5.5);
 }
 
+TEST_F(EscapeTest, GoesThroughThoseFurtherOnWhoMakeRoomForTheSame) {
+  others_ = {standing(11, 5.5, 5.0, {1.0, 9, 1})};
+  const auto path = escape({4.0, 5.0, 0.0});
+  ASSERT_TRUE(path);
+  EXPECT_GT(path->back().x(), 7.5);
+  // It is they who are pushed on, not who stands nearer to the one that goes first.
+  others_ = {standing(11, 4.0, 5.0, {1.0, 9, 1})};
+  world_.fill(0.0, 5.5, 1.4, 7.0, false);
+  const auto back = escape({5.5, 5.0, 0.0});
+  ASSERT_TRUE(back);
+  EXPECT_GT(back->back().x(), 7.5);
+  // Whose right it is itself does not make room.
+  others_ = {standing(11, 5.5, 5.0, {1.0, 9, 0})};
+  const auto closed = escape({4.0, 5.0, 0.0});
+  EXPECT_TRUE(!closed || closed->back().x() < 5.5);
+}
+
 TEST_F(EscapeTest, KnowsADeadEnd) {
   world_.fill(4.6, 0.0, 10.0, 10.0, true);
   EXPECT_FALSE(escape({4.0, 5.0, 0.0}));

@@ -60,30 +60,62 @@ TEST_F(RightOfWayTest, WhoWaitsForATeammateThatDoesNotMakeRoomTriesAgainFromElse
 }
 
 /// A room with a corridor of 1.2 m that leads out of it.
-TEST_F(RightOfWayTest, WhoHasBeenDeepInACorridorGoesFirstUntilItIsOut) {
-  World world(24, 10, true);
-  world.fill(0.3, 3.0, 2.7, 7.0, false);
-  world.fill(2.5, 4.4, 23.7, 5.6, false);
-  map_ = seenMap(world);
-  goal_ = {23.0, 5.0};
-  std::mt19937 random(1);
-  double now = 0.0;
-  const auto priorityAt = [&](double x) {
+class CorridorTest : public RightOfWayTest {
+ protected:
+  CorridorTest() {
+    world_.fill(0.3, 3.0, 2.7, 7.0, false);
+    world_.fill(2.5, 4.4, 23.7, 5.6, false);
+    map_ = seenMap(world_);
+    goal_ = {23.0, 5.0};
+  }
+  PlanResult planAt(double x) {
     odometry_.pose = {x, 5.0, 0.0};
     route_.points = {{x, 5.0}, goal_};
-    scan_ = castScan(world, odometry_.pose, now, 0.0, random);
-    now += 1.0;
-    return plan(now).intent.right.priority;
-  };
+    scan_ = castScan(world_, odometry_.pose, now_, 0.0, random_);
+    now_ += 1.0;
+    return plan(now_);
+  }
+  double priorityAt(double x) { return planAt(x).intent.right.priority; }
+  PeerMotion mate(std::uint32_t id, const Pose2& pose, const RightOfWay& right, const Eigen::Vector2d& to) const {
+    PeerMotion motion;
+    motion.id = id;
+    motion.footprint = robotFootprint();
+    motion.trajectory = SampledTrajectory::standing(pose, now_);
+    motion.heard = now_;
+    motion.intent = {right, {pose.position(), to}};
+    return motion;
+  }
+
+  World world_{24, 10, true};
+  std::mt19937 random_{1};
+  double now_ = 0.0;
+};
+
+TEST_F(CorridorTest, WhoHasBeenDeepInItGoesFirstUntilItIsWellOut) {
   EXPECT_EQ(priorityAt(1.5), 1.0);
   EXPECT_EQ(priorityAt(8.0), 1.0);
   EXPECT_EQ(priorityAt(10.5), 1.5);
   EXPECT_EQ(priorityAt(18.5), 2.0);
   EXPECT_EQ(priorityAt(4.0), 2.0) << "pushed back, it keeps what it has until it is out";
-  EXPECT_EQ(priorityAt(1.5), 1.0);
+  EXPECT_EQ(priorityAt(3.3), 2.0);
+  EXPECT_EQ(priorityAt(1.9), 2.0) << "in the mouth it could still be pushed back";
+  EXPECT_EQ(priorityAt(1.2), 1.0);
   EXPECT_EQ(priorityAt(18.5), 2.0);
   planner_.reset();
   EXPECT_EQ(priorityAt(18.5), 1.0) << "where it came from is forgotten";
+}
+
+TEST_F(CorridorTest, WhoIsPushedIntoItDoesNotGoFirstForThat) {
+  priorityAt(1.5);
+  goal_ = {1.0, 5.0};
+  for (double x = 4.0; x < 12.0; x += 1.0) {
+    peers_ = {mate(9, {x - 1.2, 5.0, 0.0}, {1.0, 9, 0}, {x + 6.0, 5.0})};
+    const RightOfWay right = planAt(x).intent.right;
+    EXPECT_EQ(right.holder, 9U) << x;
+    EXPECT_EQ(right.priority, 1.0) << x;
+  }
+  peers_.clear();
+  EXPECT_EQ(priorityAt(11.0), 1.0);
 }
 
 }  // namespace

@@ -123,14 +123,24 @@ TEST_F(TrafficTest, WithNowhereToGoARobotGoesFirstAfterAWhileUntilItIsOut) {
   const Eigen::Vector2d here(3.0, 3.0);
   EXPECT_FALSE(traffic_.cannotMakeRoom(0.0, here));
   EXPECT_FALSE(traffic_.cannotMakeRoom(0.4, here));
-  EXPECT_FALSE(traffic_.isShutIn(0.5, here));
+  EXPECT_FALSE(traffic_.isShutIn(0.5));
   EXPECT_FALSE(traffic_.cannotMakeRoom(0.8, here));
   EXPECT_TRUE(traffic_.cannotMakeRoom(1.1, here));
-  EXPECT_TRUE(traffic_.isShutIn(5.0, here));
-  EXPECT_FALSE(traffic_.isShutIn(5.0, {30.0, 3.0}));
-  EXPECT_FALSE(traffic_.isShutIn(60.0, here));
+  EXPECT_TRUE(traffic_.isShutIn(5.0));
+  EXPECT_FALSE(traffic_.isShutIn(60.0));
   traffic_.isOutAgain();
-  EXPECT_FALSE(traffic_.isShutIn(5.0, here));
+  EXPECT_FALSE(traffic_.isShutIn(5.0));
+}
+
+TEST_F(TrafficTest, InANarrowPlaceTheRightOfWhoWasShutInLastsWhileItGetsOn) {
+  for (const double t : {0.0, 0.4, 0.8, 1.1}) traffic_.cannotMakeRoom(t, {3.0, 3.0});
+  traffic_.getsOn(15.0, {6.0, 3.0}, true);  // room, but not far enough
+  traffic_.getsOn(30.0, {15.0, 3.0}, false);
+  EXPECT_TRUE(traffic_.isShutIn(45.0));
+  traffic_.getsOn(48.0, {15.3, 3.0}, false);  // hardly further
+  EXPECT_FALSE(traffic_.isShutIn(50.5));
+  traffic_.getsOn(49.0, {17.0, 3.0}, true);
+  EXPECT_FALSE(traffic_.isShutIn(49.0));
 }
 
 TEST_F(TrafficTest, WhoFollowsOneThatIsStuckGivesItRoomToTurn) {
