@@ -17,12 +17,16 @@ constexpr double kCell = 0.05;                   // [m]
 constexpr int kHeadings = 48;                    // [-] in a full turn
 constexpr double kTurn = 2.0 * kPi / kHeadings;  // [rad] of one move
 constexpr double kStride = 0.1;                  // [m] of one move
-constexpr double kReversePrice = 1.3;            // [-] it is blind to nothing, but others expect it less
-constexpr double kSwitchPrice = 0.6;             // [s] another kind of move: stop and start again
-constexpr double kTypicalSpeed = 0.4;            // [m/s]
-constexpr double kReach = 8.0;                   // [m] longer ways are not looked for
-constexpr double kFarBody = 0.3;                 // [m] further off is all the same
-constexpr double kFieldError = 0.04;             // [m] by which cells may make a place look narrower than it is
+// Beside a wall only a gentle bend leads off it: turned faster, a corner would meet the wall.
+constexpr double kBend = 0.5 * kTurn;  // [rad] of one move
+constexpr double kBendStride = 0.5;    // [m]
+constexpr double kBesideWall = 0.012;  // [m] that it may come nearer
+constexpr double kReversePrice = 1.3;  // [-] it is blind to nothing, but others expect it less
+constexpr double kSwitchPrice = 0.6;   // [s] another kind of move: stop and start again
+constexpr double kTypicalSpeed = 0.4;  // [m/s]
+constexpr double kReach = 8.0;         // [m] longer ways are not looked for
+constexpr double kFarBody = 0.3;       // [m] further off is all the same
+constexpr double kFieldError = 0.04;   // [m] by which cells may make a place look narrower than it is
 
 /// One move: a turn on the spot, or a stretch on a curvature.
 struct Move {
@@ -32,8 +36,9 @@ struct Move {
 };
 
 std::vector<Move> allMoves() {
-  return {{0.0, kStride},    {kTurn, kStride},   {-kTurn, kStride}, {0.0, -kStride},
-          {kTurn, -kStride}, {-kTurn, -kStride}, {kTurn, 0.0},      {-kTurn, 0.0}};
+  return {{0.0, kStride},       {kTurn, kStride},      {-kTurn, kStride},     {0.0, -kStride},
+          {kTurn, -kStride},    {-kTurn, -kStride},    {kTurn, 0.0},          {-kTurn, 0.0},
+          {kBend, kBendStride}, {-kBend, kBendStride}, {kBend, -kBendStride}, {-kBend, -kBendStride}};
 }
 
 Pose2 moved(const Pose2& pose, const Move& move, double share) { return integrateTwist(pose, move.length, move.turn, share); }
@@ -63,7 +68,7 @@ class Search {
         moves_(allMoves()),
         guide_(options.with_them != nullptr ? *options.with_them : surroundings, target, probe.inscribedRadius() - kFieldError,
                kReach) {
-    floor_ = std::min(options.clearance, probe.clearance(surroundings.obstacles(), start) - 1e-3);
+    floor_ = std::min(options.clearance, probe.clearance(surroundings.obstacles(), start) - kBesideWall);
     unseen_floor_ = std::min(0.0, probe.clearance(surroundings.unseen(), start) - 1e-3);
     body_floor_ = std::min(0.0, bodyClearance(start) - 1e-3);
     nodes_.push_back({start, -1, -1, 0.0, false});
@@ -124,7 +129,11 @@ class Search {
       if (known.closed || known.cost <= cost) return;
     }
     const double ahead = estimate(pose);
-    if (!std::isfinite(ahead) || !isFree(moved(parent.pose, move, 0.5)) || !isFree(pose)) return;
+    if (!std::isfinite(ahead) || !isFree(pose)) return;
+    const int parts = static_cast<int>(std::ceil(std::max(2.0, std::abs(move.length) / kStride)));
+    for (int i = 1; i < parts; ++i) {
+      if (!isFree(moved(parent.pose, move, static_cast<double>(i) / parts))) return;
+    }
     nodes_.push_back({pose, from, move_index, cost, false});
     const int index = static_cast<int>(nodes_.size()) - 1;
     if (found != index_.end()) nodes_[static_cast<std::size_t>(found->second)].closed = true;

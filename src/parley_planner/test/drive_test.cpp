@@ -229,6 +229,22 @@ TEST(NarrowSearch, TurnsBesideAnotherThatStands) {
   EXPECT_TRUE(searchNarrow(start, {8.0, 5.0}, walls, FootprintProbe(footprint), robotLimits(), kStep, options).empty());
 }
 
+TEST(NarrowSearch, ComesOffAWallAlongWhichItStands) {
+  World world(12, 10, true);
+  world.fill(0.5, 4.2, 11.5, 5.8, false);
+  const Surroundings surroundings(seenMap(world), {}, {}, {});
+  for (const double gap : {0.015, 0.03, 0.045}) {
+    for (const double yaw : {0.0, kPi}) {
+      const TrajectoryPoint start{0.0, {5.0, 5.6 - gap, yaw}, {}};
+      const auto points = searchNarrow(start, {7.5, 5.1}, surroundings, FootprintProbe(robotFootprint()), robotLimits(), kStep,
+                                       {20000, 0.03, 0.5});
+      ASSERT_FALSE(points.empty()) << gap;
+      EXPECT_LT((points.back().pose.position() - Eigen::Vector2d(7.5, 5.1)).norm(), kTargetRadius + 0.01);
+      for (const TrajectoryPoint& p : points) EXPECT_FALSE(world.touches(robotFootprint(), p.pose)) << gap;
+    }
+  }
+}
+
 TEST(NarrowSearch, ArcsAreWithinTheLimitsToTheLastBit) {
   const World world(10, 10, false);
   const LocalMap map = seenMap(world);
